@@ -1,0 +1,1 @@
+// Triangles <-> OpenMesh: the only door to OpenMesh.

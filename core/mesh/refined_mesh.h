@@ -1,0 +1,35 @@
+// The display mesh: the scene's triangles cut into elements, and where every new vertex came from.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/scene.h"
+
+namespace radiosity {
+
+/// Shapes: per vertex [vertex_count], per element [element_count]. The scene's vertices come first, unchanged and in
+/// order; vertex `scene_vertex_count + k` is the midpoint of the two earlier vertices `midpoints[k]`.
+///
+/// Every attribute of a glTF vertex can be carried over by walking `midpoints` once from front to back. The two ends of
+/// a midpoint always belong to the same glTF primitive, so a seam stays a seam.
+struct RefinedMesh {
+  std::uint32_t scene_vertex_count = 0;
+  std::vector<glm::uvec2> midpoints;      ///< [vertex_count - scene_vertex_count]
+  std::vector<glm::vec3> positions;       ///< metres
+  std::vector<glm::vec3> normals;         ///< unit, or zero where the scene's are
+  std::vector<glm::uvec3> elements;       ///< vertex indices, wound like their triangle; grouped by ascending triangle
+  std::vector<std::uint32_t> triangle_of_element;  ///< the scene triangle an element is part of
+  std::vector<SubTriangle> part_of_element;        ///< which part
+};
+
+/// The mesh of an unrefined scene: one element per triangle, in order.
+RefinedMesh unrefined(const Scene& scene);
+
+/// Area of an element, m2.
+float element_area(const RefinedMesh& mesh, std::uint32_t element);
+
+}  // namespace radiosity

@@ -1,0 +1,123 @@
+// START HERE, the public API: bakes diffuse global illumination into the vertex colours of a glTF scene.
+//
+// read -> import -> bake -> export -> write. Nothing here throws; nothing prints; no third-party types.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "plugin/result.h"
+
+namespace gltf_radiosity {
+
+/// The library's version, "major.minor.patch".
+std::string_view version();
+
+enum class Refine { kNone, kUniform };
+enum class VisibilityMethod { kAuto, kRaster, kRays };
+enum class SolverMethod { kProgressive, kGathering };
+enum class Metals { kDiffuse, kBlack };
+enum class LightUnits { kAuto, kSi, kBlender };
+enum class ColorType { kFloat, kU16, kU8 };
+
+/// The sun: a directional light at infinity.
+struct Sun {
+  double elevation_degrees = 0.0;  ///< above the horizon
+  double azimuth_degrees = 0.0;    ///< the sun stands at (cos el sin az, sin el, cos el cos az), Y up
+  double illuminance_lux = 0.0;    ///< on a surface that faces it
+};
+
+/// Every option of a bake. The defaults are what the command line's --help prints.
+struct Options {
+  // Mesh
+  Refine refine = Refine::kUniform;
+  double patch_size = 0.0;   ///< longest edge of the baked mesh, metres; 0 chooses one that suits the scene
+  std::vector<std::pair<std::string, int>> subdivide;  ///< node name -> times each triangle is cut in four, [0, 8]
+  // Light
+  std::optional<std::array<double, 3>> sky;  ///< luminance of the open sky, cd/m2, linear Rec. 709
+  std::optional<Sun> sun;
+  bool default_sky = true;   ///< a scene without any light gets a white sky of 1 cd/m2
+  Metals metals = Metals::kDiffuse;
+  LightUnits light_units = LightUnits::kAuto;
+  // Transport
+  int hemicube = 32;         ///< cells along one edge, even, [2, 512]
+  VisibilityMethod visibility = VisibilityMethod::kAuto;
+  SolverMethod solver = SolverMethod::kProgressive;
+  double residual = 0.001;   ///< stop at this share of unshot flux, (0, 1)
+  int max_patches = 6000;
+  int threads = 0;           ///< 0: every core
+  // Output
+  std::optional<double> exposure;  ///< k, m2/cd; none chooses automatically
+  ColorType color_type = ColorType::kFloat;
+};
+
+/// Called from one thread at a time.
+struct Callbacks {
+  /// `phase` is one of "read", "import", "subdivide", "patches", "direct", "solve", "gather", "export", "write"; `done`
+  /// in [0,1].
+  std::function<void(std::string_view phase, double done)> progress;
+  /// Answer true to stop: the bake ends with ErrorCode::kCancelled within a second and writes nothing.
+  std::function<bool()> cancelled;
+};
+
+/// Something the user should know although the bake succeeded.
+struct Warning {
+  std::string code;     ///< stable, kebab-case: "default-sky", "degenerate-triangles", ...
+  std::string place;    ///< `nodes[3]`, or empty
+  std::string message;  ///< one sentence
+};
+
+struct PhaseReport {
+  std::string name;
+  double seconds = 0.0;
+  std::uint64_t peak_memory_bytes = 0;  ///< highest resident size of the process by the end of the phase
+};
+
+/// What a bake did.
+struct Report {
+  std::uint64_t input_triangles = 0;
+  std::uint64_t input_vertices = 0;
+  std::uint64_t output_triangles = 0;
+  std::uint64_t output_vertices = 0;
+  std::uint64_t patches = 0;
+  std::uint64_t lights = 0;             ///< punctual ones
+  std::uint64_t emissive_triangles = 0;
+  std::uint64_t steps = 0;
+  std::uint64_t buried_elements = 0;
+  double patch_size = 0.0;              ///< metres, the one used; 0 with Refine::kNone
+  double residual = 0.0;
+  double emitted_flux = 0.0;            ///< lm
+  double absorbed_flux = 0.0;           ///< lm
+  double escaped_flux = 0.0;            ///< lm
+  double exposure = 1.0;                ///< k, m2/cd
+  double clipped_share = 0.0;           ///< of the baked area
+  std::string visibility;               ///< "raster" or "rays"
+  std::vector<PhaseReport> phases;
+  std::vector<Warning> warnings;
+};
+
+/// Bakes `input` (.glb or .gltf) and writes `output`: .glb, .gltf with a .bin beside it, or .embedded.gltf with everything in
+/// one JSON file. The output appears whole or not at all.
+Result<Report> bake_file(const std::string& input, const std::string& output, const Options& options, const Callbacks& callbacks = {});
+
+struct BakedGlb {
+  std::vector<std::byte> glb;
+  Report report;
+};
+
+/// Bakes a glTF held in memory (GLB, or JSON whose buffers and images are data URIs) into a GLB.
+Result<BakedGlb> bake_memory(std::span<const std::byte> input, const Options& options, const Callbacks& callbacks = {});
+
+/// The report as JSON, indented by two spaces.
+std::string to_json(const Report& report);
+
+}  // namespace gltf_radiosity

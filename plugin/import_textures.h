@@ -1,0 +1,48 @@
+// Textures as light sees them: sampled at a point, averaged over a triangle.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include "plugin/document.h"
+
+namespace gltf_radiosity {
+
+struct MipPyramid;  // decoded image with prefiltered levels (import_textures.cpp)
+
+enum class Wrap : std::uint16_t { kRepeat = 10497, kClampToEdge = 33071, kMirroredRepeat = 33648 };
+
+/// One use of a texture by a material. Empty (no image) answers white everywhere.
+struct TextureSlot {
+  std::shared_ptr<const MipPyramid> image;  ///< values linear if read as sRGB; shared between slots
+  Wrap wrap_s = Wrap::kRepeat, wrap_t = Wrap::kRepeat;
+  int texcoord = 0;                         ///< TEXCOORD_n, KHR_texture_transform's override applied
+  glm::vec2 offset{0.0F}, scale{1.0F};      ///< KHR_texture_transform
+  float rotation = 0.0F;                    ///< rad
+
+  explicit operator bool() const { return image != nullptr; }
+  /// Bilinear value at a texture coordinate, linear RGBA.
+  glm::vec4 at(glm::vec2 uv) const;
+  /// Mean over the triangle uv[0..2], linear RGBA: every texel it covers counts by area, through prefiltered levels.
+  glm::vec4 mean(const std::array<glm::vec2, 3>& uv) const;
+};
+
+/// Decodes each image once. An image that cannot be decoded is an error that names it.
+class TextureLibrary {
+ public:
+  explicit TextureLibrary(const Document& document) : document_(document) {}
+  /// `info` is a glTF textureInfo object ({"index": ..., "texCoord": ...}). `srgb`: colours are sRGB encoded (alpha never is).
+  Result<TextureSlot> slot(const Json& info, bool srgb, const std::string& place);
+
+ private:
+  const Document& document_;
+  std::map<std::pair<std::size_t, bool>, std::shared_ptr<const MipPyramid>> decoded_;
+};
+
+}  // namespace gltf_radiosity
