@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "plugin/result.h"
+#include "result.h"  // by its short name: installed, the two lie side by side
 
 namespace gltf_radiosity {
 

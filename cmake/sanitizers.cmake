@@ -1,0 +1,5 @@
+# Every finding ends the program: a test that only prints a report would pass.
+if(GLTF_RADIOSITY_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()

@@ -1,0 +1,4 @@
+// The one door: allowed.
+#include "core/mesh/openmesh_bridge.h"
+
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
