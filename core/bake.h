@@ -19,15 +19,15 @@ enum class Visibility : std::uint8_t { kAuto, kRaster, kRays };
 enum class Solver : std::uint8_t { kProgressive, kGathering };
 
 struct BakeOptions {
-  SubdivideOptions subdivide;             ///< how the display mesh is cut
-  bool refine_uniform = true;             ///< false keeps the scene's own triangles as elements
-  int hemicube_resolution = 32;           ///< cells along one edge of a hemicube, even, >= 2
+  SubdivideOptions subdivide;    ///< how the display mesh is cut
+  bool refine_uniform = true;    ///< false keeps the scene's own triangles as elements
+  int hemicube_resolution = 32;  ///< cells along one edge of a hemicube, even, >= 2
   Visibility visibility = Visibility::kAuto;
   Solver solver = Solver::kProgressive;
-  float residual = 0.001F;                ///< stop when this share of the emitted flux is still unshot, (0,1)
-  int max_patches = 6000;                 ///< patches that send light; more see finer indirect light
+  float residual = 0.001F;  ///< stop when this share of the emitted flux is still unshot, (0,1)
+  int max_patches = 6000;   ///< patches that send light; more see finer indirect light
   std::size_t row_cache_bytes = std::size_t{1} << 30;  ///< memory for rows of form factors
-  int threads = 0;                        ///< 0 uses every core; the result does not depend on it
+  int threads = 0;                                     ///< 0 uses every core; the result does not depend on it
 };
 
 /// What was done, for reports. Fluxes are in lumen, all bands weighted to luminance.
@@ -35,17 +35,17 @@ struct BakeReport {
   std::uint32_t patch_count = 0;
   std::uint32_t element_count = 0;
   std::uint32_t vertex_count = 0;
-  std::uint32_t steps = 0;            ///< shots, or sweeps times patches when gathering
-  float residual = 0.0F;              ///< share of the emitted flux left unshot
-  double emitted_flux = 0.0;          ///< what lamps, lights and sky bring onto or off the surfaces, lm
-  double absorbed_flux = 0.0;         ///< lm
-  double escaped_flux = 0.0;          ///< lm that left through openings
+  std::uint32_t steps = 0;                 ///< shots, or sweeps times patches when gathering
+  float residual = 0.0F;                   ///< share of the emitted flux left unshot
+  double emitted_flux = 0.0;               ///< what lamps, lights and sky bring onto or off the surfaces, lm
+  double absorbed_flux = 0.0;              ///< lm
+  double escaped_flux = 0.0;               ///< lm that left through openings
   std::uint32_t buried_element_count = 0;  ///< elements that see mostly back faces: their light is their neighbours'
   std::uint32_t degenerate_triangle_count = 0;  ///< triangles without area: kept, but they carry no light
-  double reflectance_clamped_area = 0.0;   ///< m2 whose reflectance was above kMaxReflectance
+  double reflectance_clamped_area = 0.0;        ///< m2 whose reflectance was above kMaxReflectance
   bool reached_element_limit = false;
   Visibility visibility = Visibility::kRays;  ///< what kAuto chose
-  bool lit = false;                   ///< whether the scene holds any light at all
+  bool lit = false;                           ///< whether the scene holds any light at all
 };
 
 struct Bake {

@@ -16,10 +16,14 @@ constexpr Rgb luminance_of_radiosity(const Rgb& radiosity) { return radiosity * 
 constexpr Rgb exitance_of_luminance(const Rgb& luminance) { return luminance * kPi; }
 
 /// Directions that fill the share `form_factor` of a receiver's view and show `luminance` bring this irradiance, lx.
-constexpr Rgb irradiance_of_luminance(const Rgb& luminance, float form_factor) { return luminance * (kPi * form_factor); }
+constexpr Rgb irradiance_of_luminance(const Rgb& luminance, float form_factor) {
+  return luminance * (kPi * form_factor);
+}
 
 /// What a diffuse surface shows under irradiance H: rho H / pi, cd/m2.
-constexpr Rgb reflected_luminance(const Rgb& reflectance, const Rgb& irradiance) { return reflectance * irradiance * (1.0F / kPi); }
+constexpr Rgb reflected_luminance(const Rgb& reflectance, const Rgb& irradiance) {
+  return reflectance * irradiance * (1.0F / kPi);
+}
 
 /// The three bands as the eye weighs them (Rec. 709).
 constexpr float luminance_of(const Rgb& rgb) { return 0.2126F * rgb.x + 0.7152F * rgb.y + 0.0722F * rgb.z; }

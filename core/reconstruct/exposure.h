@@ -12,9 +12,9 @@ namespace radiosity {
 
 /// One vertex's share of what a camera sees.
 struct ExposureSample {
-  Rgb luminance{0.0F};    ///< what is displayed, rho H / pi + Le, cd/m2
-  float area = 0.0F;      ///< surface that this vertex stands for, m2
-  bool lamp = false;      ///< emits by itself: may clip, does not count for automatic exposure
+  Rgb luminance{0.0F};  ///< what is displayed, rho H / pi + Le, cd/m2
+  float area = 0.0F;    ///< surface that this vertex stands for, m2
+  bool lamp = false;    ///< emits by itself: may clip, does not count for automatic exposure
 };
 
 /// The exposure k (m2/cd) that suits the samples: 1 if the area-weighted 99th percentile of the brightest band of what

@@ -1,1 +1,130 @@
-// placeholder
+#include "core/transport/solve_progressive.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/photometry.h"
+
+namespace radiosity {
+namespace {
+
+/// Rows computed side by side when the next shooter's is missing; a constant, so that evictions do not depend on
+/// threads.
+constexpr std::size_t kRowsAtOnce = 32;
+
+/// A closed room of reflectance 0.98 needs a few hundred shots per patch; beyond this something is wrong.
+constexpr std::uint32_t kMaxShotsPerPatch = 2000;
+
+/// Flux waiting at each patch, eye-weighted, with the largest at hand.
+class Unshot {
+ public:
+  Unshot(const Patches& patches, std::vector<glm::dvec3> radiosity)
+      : patches_(patches), radiosity_(std::move(radiosity)) {
+    flux_.resize(radiosity_.size());
+    for (std::uint32_t i = 0; i < flux_.size(); ++i) update(i);
+  }
+
+  const std::vector<glm::dvec3>& radiosity() const { return radiosity_; }
+  double total_flux() const { return std::accumulate(flux_.begin(), flux_.end(), 0.0); }
+  std::uint32_t brightest() const {
+    return static_cast<std::uint32_t>(std::max_element(flux_.begin(), flux_.end()) - flux_.begin());
+  }
+
+  void add(std::uint32_t patch, const glm::dvec3& radiosity) {
+    radiosity_[patch] += radiosity;
+    update(patch);
+  }
+  glm::dvec3 take(std::uint32_t patch) {
+    const glm::dvec3 taken = radiosity_[patch];
+    radiosity_[patch] = glm::dvec3(0.0);
+    flux_[patch] = 0.0;
+    return taken;
+  }
+
+  /// The brightest patches whose rows are not at hand, most flux first, `brightest()` among them.
+  std::vector<std::uint32_t> next_without_row(const RowCache& rows, std::size_t count) const {
+    std::vector<std::uint32_t> next;
+    for (std::uint32_t i = 0; i < flux_.size(); ++i) {
+      if (flux_[i] > 0.0 && !rows.holds(i)) next.push_back(i);
+    }
+    const auto end = next.begin() + static_cast<std::ptrdiff_t>(std::min(count, next.size()));
+    std::partial_sort(next.begin(), end, next.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return flux_[a] != flux_[b] ? flux_[a] > flux_[b] : a < b;
+    });
+    next.erase(end, next.end());
+    return next;
+  }
+
+ private:
+  void update(std::uint32_t patch) {
+    flux_[patch] = double{patches_.area[patch]} * double{luminance_of(Rgb(radiosity_[patch]))};
+  }
+
+  const Patches& patches_;
+  std::vector<glm::dvec3> radiosity_;  // lm/m2
+  std::vector<double> flux_;           // lm
+};
+
+/// How far along a solution is: residuals fall exponentially, so count in logarithms.
+double done_share(double residual, double wanted) {
+  return residual >= 1.0 ? 0.0 : std::clamp(std::log(residual) / std::log(wanted), 0.0, 1.0);
+}
+
+}  // namespace
+
+Rgb ambient_estimate(const Patches& patches, std::span<const glm::dvec3> unshot) {
+  glm::dvec3 flux(0.0);
+  double area = 0.0;
+  for (std::uint32_t i = 0; i < patches.patch_count(); ++i) {
+    flux += double{patches.area[i]} * unshot[i];
+    area += double{patches.area[i]};
+  }
+  if (!(area > 0.0)) return Rgb(0.0F);
+  return Rgb(flux / area / (1.0 - mean_reflectance(patches)));
+}
+
+Solution solve_progressive(const SolveProblem& problem, RowCache& rows, const Progress& progress) {
+  const Patches& patches = problem.patches;
+  std::vector<glm::dvec3> radiosity = first_radiosity(problem);
+  Unshot unshot(patches, radiosity);
+  const double emitted = unshot.total_flux();
+  Solution solution;
+  solution.converged = true;
+
+  while (emitted > 0.0) {
+    // Enough?
+    solution.residual = static_cast<float>(unshot.total_flux() / emitted);
+    if (solution.residual <= problem.residual) break;
+    if (solution.steps >= std::uint64_t{kMaxShotsPerPatch} * patches.patch_count()) {
+      solution.converged = false;
+      break;
+    }
+    if (solution.steps % 64 == 0) progress.update("solve", done_share(solution.residual, problem.residual));
+
+    // The patch with the most unshot flux sends it: by reciprocity patch j gets F_ij A_i / A_j of its radiosity.
+    const std::uint32_t shooter = unshot.brightest();
+    if (!rows.holds(shooter)) rows.fetch(unshot.next_without_row(rows, kRowsAtOnce));
+    const FormFactorRow& row = rows.row(shooter);
+    const glm::dvec3 sent = unshot.take(shooter) * double{patches.area[shooter]};
+    for (std::size_t k = 0; k < row.patch.size(); ++k) {
+      const std::uint32_t receiver = row.patch[k];
+      const glm::dvec3 received = sent * (double{row.factor[k]} / double{patches.area[receiver]});
+      const glm::dvec3 reflected = glm::dvec3(patches.reflectance[receiver]) * received;
+      radiosity[receiver] += reflected;
+      unshot.add(receiver, reflected);
+    }
+    ++solution.steps;
+  }
+
+  // What is still unshot, spread evenly.
+  const Rgb ambient = ambient_estimate(patches, unshot.radiosity());
+  solution.radiosity.resize(patches.patch_count());
+  for (std::uint32_t i = 0; i < patches.patch_count(); ++i) {
+    solution.radiosity[i] = Rgb(radiosity[i]) + patches.reflectance[i] * ambient;
+  }
+  progress.update("solve", 1.0);
+  return solution;
+}
+
+}  // namespace radiosity

@@ -1,0 +1,83 @@
+// Patches: the coarse, nearly flat groups of surface that send light as a unit.
+//
+// Every triangle is cut into n x n congruent tiles small enough for a patch; tiles of one surface that lie in the same
+// cell of a regular grid and face the same way form a patch. So large triangles are cut and dense meshes are grouped by
+// one rule, the cost of the solution depends on neither, and the tile that a ray hits follows from its barycentric
+// coordinates by arithmetic:
+//
+//        /\          j = 1                                                                                            .
+//       /__\                          tile (i, j, upper) of a triangle cut n = 2 times;                               .
+//      /\  /\        j = 0            numbered by rows: j (2n - j) + 2i + upper                                       .
+//     /__\/__\                                                                                                        .
+//      i=0 i=1
+//
+// A surface that sends on both sides has two patches at each place, one for either side.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/progress.h"
+#include "core/scene.h"
+
+namespace radiosity {
+
+/// A place on a surface where light is looked at.
+struct SurfacePoint {
+  glm::vec3 position{0.0F};  ///< metres, on the surface
+  glm::vec3 normal{0.0F};    ///< unit, towards the side that is meant
+};
+
+/// One of the n x n congruent parts of a triangle that emits light by itself.
+struct EmissiveTile {
+  glm::vec3 corner[3];  ///< metres, counter-clockwise seen from the front
+  Rgb luminance{0.0F};  ///< mean over the tile, cd/m2
+  bool two_sided = false;
+};
+
+struct PatchOptions {
+  int max_patches = 6000;    ///< tiles are made larger until no more patches than this remain, >= 1
+  int points_per_patch = 4;  ///< where form factors and direct light of a patch are measured, >= 1
+};
+
+/// Shapes: per triangle [triangle_count], per tile [tile_count], per patch [patch_count()].
+struct Patches {
+  float size = 0.0F;  ///< edge of the grid's cells, metres
+
+  std::vector<std::uint32_t> cuts_of_triangle;  ///< n: the triangle has n * n tiles; 0 for triangles without area
+  std::vector<std::uint32_t> first_tile_of_triangle;
+  std::vector<std::uint32_t> patch_of_tile;       ///< the patch of the front
+  std::vector<std::uint32_t> back_patch_of_tile;  ///< the patch of the back; kNothing where the back only blocks
+
+  std::vector<float> area;           ///< m2
+  std::vector<Rgb> reflectance;      ///< area-weighted mean, at most kMaxReflectance
+  std::vector<Rgb> glow;             ///< mean luminance that is not in `lamps`, cd/m2
+  std::vector<SurfacePoint> points;  ///< [patch_count() * points_per_patch]
+  int points_per_patch = 0;
+
+  /// What emits, as far as it is worth shadow rays: the tiles with most flux, at most kMaxLamps, in scene order.
+  /// Patches keep the emission of the remaining tiles as `glow`, which hemicubes see.
+  std::vector<EmissiveTile> lamps;
+
+  double reflectance_clamped_area = 0.0;  ///< m2 whose reflectance was lowered to kMaxReflectance
+  std::uint32_t degenerate_triangle_count = 0;
+
+  std::uint32_t patch_count() const { return static_cast<std::uint32_t>(area.size()); }
+  /// The patch that shows its light at a point of a triangle; kNothing if that side sends none.
+  std::uint32_t patch_at(std::uint32_t triangle, Barycentrics at, bool back) const;
+  std::span<const SurfacePoint> points_of(std::uint32_t patch) const;
+};
+
+inline constexpr std::size_t kMaxLamps = 8192;
+
+/// Part of its triangle that a tile covers. REQUIRES: tile < cuts * cuts.
+SubTriangle tile_part(std::uint32_t cuts, std::uint32_t tile);
+
+/// The tile of a triangle cut `cuts` times that holds a point.
+std::uint32_t tile_at(std::uint32_t cuts, Barycentrics at);
+
+/// Deterministic; linear in the number of tiles. Throws `Cancelled`.
+Patches make_patches(const Scene& scene, const PatchOptions& options, const Progress& progress);
+
+}  // namespace radiosity

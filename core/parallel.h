@@ -1,0 +1,31 @@
+// Work for all cores, in chunks short enough to report progress and to stop between them.
+#pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+
+#include "core/progress.h"
+
+namespace radiosity {
+
+/// Calls `work(k)` once for every k in [0, count), concurrently within a chunk of `chunk` calls. Each call must write
+/// only what belongs to its k: then the result does not depend on the number of threads. Throws `Cancelled` between
+/// chunks.
+template <typename Work>
+void parallel_in_chunks(std::size_t count, std::size_t chunk, const Progress& progress, std::string_view phase,
+                        const Work& work) {
+  for (std::size_t first = 0; first < count; first += chunk) {
+    progress.update(phase, static_cast<double>(first) / static_cast<double>(count));
+    const std::size_t last = std::min(first + chunk, count);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(first, last), [&work](const auto& range) {
+      for (std::size_t k = range.begin(); k != range.end(); ++k) work(k);
+    });
+  }
+  progress.update(phase, 1.0);
+}
+
+}  // namespace radiosity

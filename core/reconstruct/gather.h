@@ -1,0 +1,53 @@
+// Light at a point: direct light by shadow rays + one hemicube over the solved patches.
+//
+// The final gather separates what is displayed from what light was exchanged between: the patches may be coarse, for a
+// hemicube averages over thousands of them. Lischinski, Tampieri and Greenberg. Combining Hierarchical Radiosity and
+// Discontinuity Meshing. 1993
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/mesh/patches.h"
+#include "core/mesh/refined_mesh.h"
+#include "core/progress.h"
+#include "core/transport/direct_light.h"
+#include "core/visibility/hemicube.h"
+#include "core/visibility/item_buffer.h"
+
+namespace radiosity {
+
+/// What a point sees.
+struct Gathered {
+  Rgb irradiance{0.0F};     ///< H, lx
+  float back_share = 0.0F;  ///< share of the view filled by backs that send no light, [0,1]
+};
+
+/// A sample is buried if backs fill more of its view than this: it lies inside or behind something.
+inline constexpr float kBuriedShare = 0.3F;
+
+/// Thread-safe. Everything referred to must outlive it.
+struct Gatherer {
+  const Scene& scene;
+  const Patches& patches;
+  const Hemicube& hemicube;
+  const ItemBufferMaker& items;
+  const DirectLight& direct;
+  std::span<const Rgb> radiosity;  ///< solved, [patch_count], lm/m2
+
+  /// `index` picks the twist and the place in the low-discrepancy sequences.
+  Gathered at(const SurfacePoint& point, std::uint32_t index) const;
+};
+
+/// Light per element, [element_count].
+struct ElementLight {
+  std::vector<Rgb> irradiance;       ///< mean H over the samples that are not buried, lx
+  std::vector<std::uint8_t> buried;  ///< 1 where every sample is buried or the element has no area: no light is known
+};
+
+/// Gathers at samples inside each element, more where it is larger than a patch. A surface that is lit on both sides
+/// shows its front; its back where the front is buried. Parallel; throws `Cancelled`.
+ElementLight gather_elements(const RefinedMesh& mesh, const Gatherer& gatherer, const Progress& progress);
+
+}  // namespace radiosity
