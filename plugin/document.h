@@ -9,11 +9,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 #include "plugin/gltf_radiosity.h"
 #include "plugin/result.h"
@@ -30,10 +29,10 @@ using Bytes = std::vector<std::uint8_t>;
 /// Shapes: buffers is [json["buffers"].size()], each at least as long as its byteLength says. Images stay where they
 /// are (a bufferView, a data URI, or a file in `folder`).
 ///
-/// Invariant after read_document: every index that this project follows (accessor, bufferView, buffer, mesh, node, material,
-/// texture, image, sampler, light) is in range, every accessor and bufferView lies inside its buffer (in 64 bits), the node
-/// hierarchy is a forest, and KHR_draco_mesh_compression has been decoded: those primitives have plain accessors, and
-/// the extension has left the tree.
+/// Invariant after read_document: every index that this project follows (accessor, bufferView, buffer, mesh, node,
+/// material, texture, image, sampler, light) is in range, every accessor and bufferView lies inside its buffer (in 64
+/// bits), the node hierarchy is a forest, and KHR_draco_mesh_compression has been decoded: those primitives have plain
+/// accessors, and the extension has left the tree.
 struct Document {
   Json json;
   std::vector<Bytes> buffers;
@@ -41,17 +40,24 @@ struct Document {
   std::vector<Warning> warnings;
 };
 
-/// Reads a .glb or .gltf (told apart by content). External buffers are read; the paths of buffers and images must stay in
-/// the file's folder or below. Errors name the place, `accessors[3]`.
+/// Reads a .glb or .gltf (told apart by content). External buffers are read; the paths of buffers and images must stay
+/// in the file's folder or below. Errors name the place, `accessors[3]`.
 Result<Document> read_document(const std::filesystem::path& file);
 Result<Document> read_document(std::span<const std::uint8_t> bytes, const std::filesystem::path& folder);
 
-/// The document as tinygltf types: materials, textures, samplers, nodes, meshes, accessors, lights. Buffers and images are left
-/// empty in it: read data with accessor_view.h and image_decode.h. Indices agree with the JSON tree.
+/// The document as tinygltf types: materials, textures, samplers, nodes, meshes, accessors, lights. Buffers and images
+/// are left empty in it: read data with accessor_view.h and image_decode.h. Indices agree with the JSON tree.
 Result<std::shared_ptr<const tinygltf::Model>> typed_view(const Document& document);
 
 /// The bytes behind a URI: a data URI decoded, or a file below `folder` (percent-decoded). `place` goes into errors.
 Result<Bytes> read_uri(const std::string& uri, const std::filesystem::path& folder, const std::string& place);
+
+/// The file behind a relative URI: it exists and lies below `folder`, symbolic links followed.
+Result<std::filesystem::path> resolve_uri(const std::string& uri, const std::filesystem::path& folder,
+                                          const std::string& place);
+
+/// A whole file. An empty `place` puts the file's name into errors.
+Result<Bytes> read_file(const std::filesystem::path& file, const std::string& place);
 
 /// The encoded bytes (PNG, JPEG, ...) of images[`image`].
 Result<Bytes> image_bytes(const Document& document, std::size_t image);

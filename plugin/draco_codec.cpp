@@ -1,1 +1,246 @@
-// placeholder
+#include "plugin/draco_codec.h"
+
+#include <draco/compression/decode.h>
+#include <draco/mesh/mesh.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <exception>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "plugin/accessor_view.h"
+#include "plugin/check_document.h"
+
+namespace gltf_radiosity {
+namespace {
+
+constexpr const char* kExtension = "KHR_draco_mesh_compression";
+constexpr std::uint64_t kIndices = std::numeric_limits<std::uint64_t>::max();  ///< stands for a blob's triangles
+
+/// What an accessor was filled with: an attribute (its unique id) of the blob in a bufferView.
+struct Source {
+  std::uint64_t view = 0, id = 0;
+  bool operator==(const Source&) const = default;
+};
+
+Result<std::unique_ptr<draco::Mesh>> decode_blob(const Document& document, std::size_t view_index,
+                                                 const std::string& place) {
+  const Json& view = document.json["bufferViews"][view_index];
+  const Bytes& bytes = document.buffers[view["buffer"].get<std::size_t>()];
+  draco::DecoderBuffer buffer;
+  buffer.Init(reinterpret_cast<const char*>(bytes.data()) + view.value("byteOffset", std::size_t{0}),
+              view["byteLength"].get<std::size_t>());
+  // Draco throws std::bad_alloc or std::length_error on some broken blobs.
+  try {
+    draco::Decoder decoder;
+    auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
+    if (!decoded.ok()) return bad_input(place, fmt::format("Draco cannot decode it: {}", decoded.status().error_msg()));
+    return std::move(decoded).value();
+  } catch (const std::exception&) {
+    return bad_input(place, "Draco cannot decode it");
+  }
+}
+
+template <typename T>
+bool copy_values(const draco::Mesh& mesh, const draco::PointAttribute& attribute, std::size_t stride, Bytes& bytes) {
+  const auto components = static_cast<std::int8_t>(attribute.num_components());
+  for (std::uint32_t point = 0; point < mesh.num_points(); ++point) {
+    const draco::AttributeValueIndex value = attribute.mapped_index(draco::PointIndex(point));
+    T converted[4] = {};
+    if (value.value() >= attribute.size() || !attribute.ConvertValue<T>(value, components, converted)) return false;
+    std::memcpy(bytes.data() + point * stride, converted, sizeof(T) * static_cast<std::size_t>(components));
+  }
+  return true;
+}
+
+bool copy_values(const draco::Mesh& mesh, const draco::PointAttribute& attribute, ComponentType component,
+                 std::size_t stride, Bytes& bytes) {
+  switch (component) {
+    case ComponentType::kI8:
+      return copy_values<std::int8_t>(mesh, attribute, stride, bytes);
+    case ComponentType::kU8:
+      return copy_values<std::uint8_t>(mesh, attribute, stride, bytes);
+    case ComponentType::kI16:
+      return copy_values<std::int16_t>(mesh, attribute, stride, bytes);
+    case ComponentType::kU16:
+      return copy_values<std::uint16_t>(mesh, attribute, stride, bytes);
+    case ComponentType::kU32:
+      return copy_values<std::uint32_t>(mesh, attribute, stride, bytes);
+    case ComponentType::kF32:
+      return copy_values<float>(mesh, attribute, stride, bytes);
+  }
+  return false;
+}
+
+/// Fills accessors of one document from Draco blobs.
+class DracoDecoder {
+ public:
+  explicit DracoDecoder(Document& document) : document_(document) {}
+
+  /// `primitive` has the extension. Leaves it with plain accessors.
+  Result<Done> decode(Json& primitive, const std::string& place) {
+    const Json extension = primitive["extensions"][kExtension];
+    const auto view = extension["bufferView"].get<std::uint64_t>();
+    if (primitive.value("mode", 4) != 4) return bad_input(place, "Draco is only supported for triangle lists");
+    if (!primitive.contains("indices")) return bad_input(place, "is compressed with Draco but has no indices");
+
+    if (!has_data(primitive, extension, view)) {
+      auto mesh = decode_blob(document_, view, place);
+      if (!mesh) return mesh.error();
+      if (auto filled = fill_indices(primitive, **mesh, view, place); !filled) return filled.error();
+      for (const auto& [name, id] : extension["attributes"].items()) {
+        const Source source{view, id.get<std::uint64_t>()};
+        if (auto filled = fill_attribute(primitive["attributes"][name], **mesh, source, place); !filled) {
+          return filled.error();
+        }
+      }
+    }
+    Json& extensions = primitive["extensions"];
+    extensions.erase(kExtension);
+    if (extensions.empty()) primitive.erase("extensions");
+    return Done{};
+  }
+
+  /// Adds the decoded data to the document.
+  void finish() {
+    if (bytes_.empty()) return;
+    document_.json["buffers"].push_back({{"byteLength", bytes_.size()}});
+    document_.buffers.push_back(std::move(bytes_));
+  }
+
+ private:
+  /// Whether every accessor has plain data already: a fallback, or the same blob decoded for another primitive.
+  bool has_data(const Json& primitive, const Json& extension, std::uint64_t view) const {
+    const auto plain = [&](const Json& accessor, std::uint64_t id) {
+      const auto filled = filled_.find(accessor.get<std::size_t>());
+      if (filled != filled_.end()) return filled->second == Source{view, id};
+      return document_.json["accessors"][accessor.get<std::size_t>()].contains("bufferView");
+    };
+    bool all = plain(primitive["indices"], kIndices);
+    for (const auto& [name, id] : extension["attributes"].items()) {
+      all = all && plain(primitive["attributes"][name], id.get<std::uint64_t>());
+    }
+    return all;
+  }
+
+  /// Makes `reference` an accessor that reads `data`.
+  void attach(Json& reference, const Source& source, const Bytes& data, std::size_t stride, int target) {
+    // An accessor that holds another blob's data already is cloned.
+    auto index = reference.get<std::size_t>();
+    Json& accessors = document_.json["accessors"];
+    if (const auto filled = filled_.find(index); filled != filled_.end()) {
+      if (filled->second == source) return;
+      accessors.push_back(Json(accessors[index]));
+      index = accessors.size() - 1;
+      reference = index;
+    }
+    filled_[index] = source;
+
+    bytes_.resize((bytes_.size() + 3) / 4 * 4);
+    Json view = {
+        {"buffer", document_.json["buffers"].size()}, {"byteOffset", bytes_.size()}, {"byteLength", data.size()}};
+    if (stride != 0) view["byteStride"] = stride;
+    view["target"] = target;
+    bytes_.insert(bytes_.end(), data.begin(), data.end());
+    document_.json["bufferViews"].push_back(std::move(view));
+    accessors[index].erase("byteOffset");
+    accessors[index].erase("sparse");
+    accessors[index]["bufferView"] = document_.json["bufferViews"].size() - 1;
+  }
+
+  Result<Done> fill_indices(Json& primitive, const draco::Mesh& mesh, std::uint64_t view, const std::string& place) {
+    const Json& accessor = document_.json["accessors"][primitive["indices"].get<std::size_t>()];
+    const std::uint64_t count = std::uint64_t{mesh.num_faces()} * 3;
+    if (count != accessor["count"].get<std::uint64_t>()) {
+      return bad_input(place, fmt::format("Draco holds {} indices where the accessor says {}", count,
+                                          accessor["count"].get<std::uint64_t>()));
+    }
+    const std::size_t size = component_size(static_cast<ComponentType>(accessor["componentType"].get<std::uint16_t>()));
+    const std::uint64_t limit = std::min<std::uint64_t>(mesh.num_points(), std::uint64_t{1} << (8 * size));
+    Bytes data(count * size);
+    std::uint8_t* to = data.data();
+    for (std::uint32_t face = 0; face < mesh.num_faces(); ++face) {
+      for (const draco::PointIndex& point : mesh.face(draco::FaceIndex(face))) {
+        const std::uint32_t index = point.value();
+        if (index >= limit) return bad_input(place, fmt::format("index {} is beyond {} vertices", index, limit));
+        std::memcpy(to, &index, size);  // little endian: the low bytes come first
+        to += size;
+      }
+    }
+    attach(primitive["indices"], {view, kIndices}, data, 0, 34963);
+    return Done{};
+  }
+
+  Result<Done> fill_attribute(Json& reference, const draco::Mesh& mesh, const Source& source,
+                              const std::string& place) {
+    const auto index = reference.get<std::size_t>();
+    const Json& accessor = document_.json["accessors"][index];
+    const draco::PointAttribute* attribute =
+        source.id > 0xffffffffU ? nullptr : mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(source.id));
+    if (attribute == nullptr) return bad_input(place, fmt::format("Draco holds no attribute {}", source.id));
+    const auto layout =
+        element_layout(accessor["type"].get<std::string>(), accessor["componentType"].get<std::uint64_t>());
+    if (layout->columns != 1 || layout->rows != static_cast<std::size_t>(attribute->num_components())) {
+      return bad_input(place, fmt::format("Draco attribute {} has {} components, accessors[{}] another number",
+                                          source.id, attribute->num_components(), index));
+    }
+    if (accessor["count"].get<std::uint64_t>() != mesh.num_points()) {
+      return bad_input(place, fmt::format("Draco holds {} vertices where accessors[{}] says {}", mesh.num_points(),
+                                          index, accessor["count"].get<std::uint64_t>()));
+    }
+
+    const std::size_t stride = (layout->size + 3) / 4 * 4;
+    Bytes data(stride * mesh.num_points());
+    if (!copy_values(mesh, *attribute, layout->component, stride, data)) {
+      return bad_input(place, fmt::format("Draco attribute {} does not fit accessors[{}]", source.id, index));
+    }
+    attach(reference, source, data, stride == layout->size ? 0 : stride, 34962);
+    return Done{};
+  }
+
+  Document& document_;
+  std::map<std::size_t, Source> filled_;
+  Bytes bytes_;
+};
+
+void remove_name(Json& root, const char* array) {
+  const auto it = root.find(array);
+  if (it == root.end()) return;
+  Json kept = Json::array();
+  for (const Json& name : *it) {
+    if (name != kExtension) kept.push_back(name);
+  }
+  if (kept.empty()) {
+    root.erase(array);
+  } else {
+    *it = std::move(kept);
+  }
+}
+
+}  // namespace
+
+Result<Done> decode_draco(Document& document) {
+  DracoDecoder decoder(document);
+  bool any = false;
+  const std::size_t mesh_count = array_of(document.json, "meshes").size();
+  for (std::size_t i = 0; i < mesh_count; ++i) {
+    const std::size_t primitive_count = array_of(document.json["meshes"][i], "primitives").size();
+    for (std::size_t j = 0; j < primitive_count; ++j) {
+      Json& primitive = document.json["meshes"][i]["primitives"][j];
+      if (extension_of(primitive, kExtension) == nullptr) continue;
+      any = true;
+      if (auto decoded = decoder.decode(primitive, place_of_primitive(i, j)); !decoded) return decoded.error();
+    }
+  }
+  if (!any) return Done{};
+  decoder.finish();
+  remove_name(document.json, "extensionsUsed");
+  remove_name(document.json, "extensionsRequired");
+  return Done{};
+}
+
+}  // namespace gltf_radiosity
