@@ -1,1 +1,297 @@
-// placeholder
+#include "core/mesh/openmesh_bridge.h"
+
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <OpenMesh/Core/System/omstream.hh>
+#include <algorithm>
+#include <tuple>
+#include <vector>
+
+namespace radiosity {
+namespace {
+
+using Mesh = OpenMesh::TriMesh_ArrayKernelT<>;
+using OpenMesh::EdgeHandle;
+using OpenMesh::FaceHandle;
+using OpenMesh::HalfedgeHandle;
+using OpenMesh::VertexHandle;
+
+/// The corner at the end of a halfedge, as the triangle left of the halfedge knows it.
+struct Corner {
+  std::uint32_t vertex = kNothing;
+  Barycentrics at{0.0F};
+};
+
+std::uint32_t number_of(const OpenMesh::BaseHandle& handle) { return static_cast<std::uint32_t>(handle.idx()); }
+
+EdgeHandle edge_of(std::uint32_t edge) { return EdgeHandle(static_cast<int>(edge)); }
+
+Mesh::Point point_of(const glm::vec3& position) { return {position.x, position.y, position.z}; }
+
+/// Squared length in double: equal for both directions, and finite for all finite positions.
+double squared_length(const Mesh::Point& a, const Mesh::Point& b) {
+  const OpenMesh::Vec3d along = OpenMesh::vector_cast<OpenMesh::Vec3d>(a) - OpenMesh::vector_cast<OpenMesh::Vec3d>(b);
+  return along.sqrnorm();
+}
+
+/// OpenMesh reports each triangle it refuses; here that is expected, and core does not print.
+void silence_openmesh() {
+  static const bool silent = [] {
+    omerr().disable();
+    omout().disable();
+    omlog().disable();
+    return true;
+  }();
+  static_cast<void>(silent);
+}
+
+}  // namespace
+
+struct OpenMeshBridge::Net {
+  Mesh mesh;
+  OpenMesh::HPropHandleT<Corner> corner;
+  OpenMesh::FPropHandleT<std::uint32_t> triangle;
+  OpenMesh::VPropHandleT<std::uint32_t> position_class;
+  std::vector<std::uint32_t> vertices_in_class;
+  std::size_t triangle_count = 0;
+
+  /// Since the round began: edges that run inside a triangle from an old vertex to a midpoint, one per cut triangle.
+  std::vector<EdgeHandle> cuts;
+  std::uint32_t first_midpoint = 0;
+
+  VertexHandle add_vertex(std::uint32_t its_class, const Mesh::Point& at) {
+    const VertexHandle vertex = mesh.add_vertex(at);
+    mesh.property(position_class, vertex) = its_class;
+    vertices_in_class.resize(std::max<std::size_t>(vertices_in_class.size(), its_class + std::size_t{1}));
+    ++vertices_in_class[its_class];
+    return vertex;
+  }
+
+  bool is_midpoint(VertexHandle vertex) const { return number_of(vertex) >= first_midpoint; }
+
+  FaceHandle add_joined(const std::array<VertexHandle, 3>& corners) {
+    const auto [a, b, c] = corners;
+    if (a == b || b == c || c == a) {
+      return FaceHandle();
+    }
+    // Two triangles back to back would be a closed surface to OpenMesh, but one in which edges cannot be turned.
+    const HalfedgeHandle back = mesh.find_halfedge(b, a);
+    if (back.is_valid() && !mesh.is_boundary(back) && mesh.to_vertex_handle(mesh.next_halfedge_handle(back)) == c) {
+      return FaceHandle();
+    }
+    return mesh.add_face(a, b, c);
+  }
+
+  void add_triangle(const std::array<VertexHandle, 3>& joined, std::uint32_t number, const glm::uvec3& vertices) {
+    FaceHandle face = add_joined(joined);
+    if (!face.is_valid()) {
+      std::array<VertexHandle, 3> own;
+      for (std::size_t i = 0; i < 3; ++i) {
+        own[i] = add_vertex(mesh.property(position_class, joined[i]), mesh.point(joined[i]));
+      }
+      face = mesh.add_face(own[0], own[1], own[2]);
+    }
+    mesh.property(triangle, face) = number;
+
+    // A face's first halfedge ends at its first corner.
+    HalfedgeHandle halfedge = mesh.halfedge_handle(face);
+    mesh.property(corner, halfedge) = {vertices.x, {0.0F, 0.0F}};
+    halfedge = mesh.next_halfedge_handle(halfedge);
+    mesh.property(corner, halfedge) = {vertices.y, {1.0F, 0.0F}};
+    halfedge = mesh.next_halfedge_handle(halfedge);
+    mesh.property(corner, halfedge) = {vertices.z, {0.0F, 1.0F}};
+  }
+
+  /// Whether the other diagonal of the quad around `cut` is to be preferred: it joins two midpoints, or it is shorter.
+  /// Decides by positions alone, so that all copies of a triangle are cut alike.
+  bool should_turn(EdgeHandle cut) const {
+    const HalfedgeHandle halfedge = mesh.halfedge_handle(cut, 0);
+    const HalfedgeHandle twin = mesh.halfedge_handle(cut, 1);
+    VertexHandle old_end = mesh.to_vertex_handle(halfedge);
+    VertexHandle midpoint = mesh.to_vertex_handle(twin);
+    if (is_midpoint(old_end)) {
+      std::swap(old_end, midpoint);
+    }
+    VertexHandle left = mesh.to_vertex_handle(mesh.next_halfedge_handle(halfedge));
+    VertexHandle right = mesh.to_vertex_handle(mesh.next_halfedge_handle(twin));
+    if (is_midpoint(left) == is_midpoint(right)) {
+      return is_midpoint(left);
+    }
+    if (is_midpoint(left)) {
+      std::swap(left, right);
+    }
+    const double kept = squared_length(mesh.point(old_end), mesh.point(midpoint));
+    const double turned = squared_length(mesh.point(left), mesh.point(right));
+    const auto place = [this](VertexHandle v) {
+      return std::tuple(mesh.point(v)[0], mesh.point(v)[1], mesh.point(v)[2]);
+    };
+    return turned < kept || (turned == kept && place(left) < place(old_end));
+  }
+
+  void turn(EdgeHandle cut) {
+    const HalfedgeHandle halfedge = mesh.halfedge_handle(cut, 0);
+    const HalfedgeHandle twin = mesh.halfedge_handle(cut, 1);
+    const HalfedgeHandle to_left = mesh.next_halfedge_handle(halfedge);
+    const HalfedgeHandle to_right = mesh.next_halfedge_handle(twin);
+    if (!mesh.is_flip_ok(cut)) {
+      return;  // both diagonals cut the triangle without a gap
+    }
+    mesh.flip(cut);
+    mesh.property(corner, mesh.next_halfedge_handle(to_left)) = mesh.property(corner, to_right);
+    mesh.property(corner, mesh.next_halfedge_handle(to_right)) = mesh.property(corner, to_left);
+  }
+};
+
+OpenMeshBridge::OpenMeshBridge(std::span<const glm::uvec3> triangles, std::span<const std::uint32_t> class_of_vertex,
+                               std::span<const glm::vec3> position_of_class)
+    : net_(std::make_unique<Net>()) {
+  silence_openmesh();
+  Net& net = *net_;
+  net.triangle_count = triangles.size();
+  net.mesh.add_property(net.corner);
+  net.mesh.add_property(net.triangle);
+  net.mesh.add_property(net.position_class);
+  net.mesh.reserve(position_of_class.size(), triangles.size() * 3 / 2, triangles.size());
+
+  for (std::uint32_t i = 0; i < position_of_class.size(); ++i) {
+    net.add_vertex(i, point_of(position_of_class[i]));
+  }
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    std::array<VertexHandle, 3> joined;
+    for (int c = 0; c < 3; ++c) {
+      joined[static_cast<std::size_t>(c)] = VertexHandle(static_cast<int>(class_of_vertex[triangles[i][c]]));
+    }
+    net.add_triangle(joined, i, triangles[i]);
+  }
+}
+
+OpenMeshBridge::~OpenMeshBridge() = default;
+
+std::uint32_t OpenMeshBridge::edge_count() const { return static_cast<std::uint32_t>(net_->mesh.n_edges()); }
+
+std::uint32_t OpenMeshBridge::face_count() const { return static_cast<std::uint32_t>(net_->mesh.n_faces()); }
+
+glm::uvec2 OpenMeshBridge::end_classes(std::uint32_t edge) const {
+  const Net& net = *net_;
+  const auto class_at = [&](unsigned int which) {
+    return net.mesh.property(net.position_class,
+                             net.mesh.to_vertex_handle(net.mesh.halfedge_handle(edge_of(edge), which)));
+  };
+  const auto [low, high] = std::minmax({class_at(0), class_at(1)});
+  return {low, high};
+}
+
+bool OpenMeshBridge::may_have_copies(std::uint32_t edge) const {
+  // Copies differ in a vertex at one end at least: OpenMesh joins two given vertices by one edge only.
+  const glm::uvec2 ends = end_classes(edge);
+  return net_->vertices_in_class[ends.x] > 1 || net_->vertices_in_class[ends.y] > 1;
+}
+
+EdgeSide OpenMeshBridge::side(std::uint32_t edge, int which) const {
+  const Net& net = *net_;
+  const HalfedgeHandle halfedge = net.mesh.halfedge_handle(edge_of(edge), static_cast<unsigned int>(which));
+  if (net.mesh.is_boundary(halfedge)) {
+    return {};
+  }
+  const HalfedgeHandle before = net.mesh.prev_halfedge_handle(halfedge);
+  return {.triangle = net.mesh.property(net.triangle, net.mesh.face_handle(halfedge)),
+          .ends = {net.mesh.property(net.corner, before).vertex, net.mesh.property(net.corner, halfedge).vertex}};
+}
+
+void OpenMeshBridge::begin_round(std::size_t edges, std::size_t sides) {
+  Mesh& mesh = net_->mesh;
+  mesh.reserve(mesh.n_vertices() + edges, mesh.n_edges() + edges + sides, mesh.n_faces() + sides);
+  net_->first_midpoint = static_cast<std::uint32_t>(mesh.n_vertices());
+  net_->cuts.clear();
+}
+
+//         apex                         apex
+//        /    \                       /  | \                                                                          .
+//   before     after      ->     before  |   after        A halfedge's corner is the one at its end.
+//     /          \                  /    | \                                                                       .
+//  start --------> end          start --mid---> end
+void OpenMeshBridge::halve(std::uint32_t edge, std::uint32_t position_class, const glm::vec3& position,
+                           const std::array<std::uint32_t, 2>& midpoint_of_side) {
+  Net& net = *net_;
+  struct Half {
+    HalfedgeHandle after, before;
+    Corner start, middle, end;
+    std::uint32_t triangle = kNothing;
+  };
+  std::array<Half, 2> halves;
+
+  // What the triangles on both sides look like before the cut.
+  for (unsigned int which = 0; which < 2; ++which) {
+    const HalfedgeHandle halfedge = net.mesh.halfedge_handle(edge_of(edge), which);
+    if (net.mesh.is_boundary(halfedge)) {
+      continue;
+    }
+    Half& half = halves[which];
+    half.after = net.mesh.next_halfedge_handle(halfedge);
+    half.before = net.mesh.prev_halfedge_handle(halfedge);
+    half.start = net.mesh.property(net.corner, half.before);
+    half.end = net.mesh.property(net.corner, halfedge);
+    half.middle = {midpoint_of_side[which], 0.5F * (half.start.at + half.end.at)};
+    half.triangle = net.mesh.property(net.triangle, net.mesh.face_handle(halfedge));
+  }
+
+  net.mesh.split(edge_of(edge), net.add_vertex(position_class, point_of(position)));
+
+  // `after` and `before` keep their corners; each now has a triangle of its own with two new halfedges.
+  for (const Half& half : halves) {
+    if (!half.after.is_valid()) {
+      continue;
+    }
+    const HalfedgeHandle from_apex = net.mesh.next_halfedge_handle(half.after);
+    const HalfedgeHandle from_start = net.mesh.next_halfedge_handle(half.before);
+    net.mesh.property(net.corner, from_apex) = half.middle;
+    net.mesh.property(net.corner, net.mesh.next_halfedge_handle(from_apex)) = half.end;
+    net.mesh.property(net.corner, from_start) = half.middle;
+    net.mesh.property(net.corner, net.mesh.next_halfedge_handle(from_start)) =
+        net.mesh.property(net.corner, half.after);
+    net.mesh.property(net.triangle, net.mesh.face_handle(half.after)) = half.triangle;
+    net.mesh.property(net.triangle, net.mesh.face_handle(half.before)) = half.triangle;
+    if (!net.is_midpoint(net.mesh.to_vertex_handle(half.after))) {
+      net.cuts.push_back(net.mesh.edge_handle(from_apex));
+    }
+  }
+}
+
+void OpenMeshBridge::end_round() {
+  for (const EdgeHandle cut : net_->cuts) {
+    if (net_->should_turn(cut)) {
+      net_->turn(cut);
+    }
+  }
+}
+
+void OpenMeshBridge::write_elements(RefinedMesh& mesh) const {
+  const Net& net = *net_;
+  const std::size_t element_count = net.mesh.n_faces();
+  mesh.elements.resize(element_count);
+  mesh.triangle_of_element.resize(element_count);
+  mesh.part_of_element.resize(element_count);
+
+  // Counting sort: where the elements of each triangle begin.
+  std::vector<std::uint32_t> next_of_triangle(net.triangle_count + 1, 0);
+  for (const FaceHandle face : net.mesh.faces()) {
+    ++next_of_triangle[net.mesh.property(net.triangle, face) + std::size_t{1}];
+  }
+  for (std::size_t i = 1; i < next_of_triangle.size(); ++i) {
+    next_of_triangle[i] += next_of_triangle[i - 1];
+  }
+
+  for (const FaceHandle face : net.mesh.faces()) {
+    const std::uint32_t triangle = net.mesh.property(net.triangle, face);
+    const std::uint32_t element = next_of_triangle[triangle]++;
+    mesh.triangle_of_element[element] = triangle;
+    HalfedgeHandle halfedge = net.mesh.halfedge_handle(face);
+    for (int i = 0; i < 3; ++i) {
+      const Corner& corner = net.mesh.property(net.corner, halfedge);
+      mesh.elements[element][i] = corner.vertex;
+      mesh.part_of_element[element].corner[i] = corner.at;
+      halfedge = net.mesh.next_halfedge_handle(halfedge);
+    }
+  }
+}
+
+}  // namespace radiosity

@@ -1,1 +1,68 @@
 // Triangles <-> OpenMesh: the only door to OpenMesh.
+//
+// Triangles are joined where they share an edge by position, whatever glTF vertices they name there, and edges are
+// halved by OpenMesh. What a glTF vertex adds to a position is kept per corner, outside OpenMesh's vertices, so a seam
+// is an ordinary edge whose two sides name different vertices.
+//
+// OpenMesh takes two triangles at an edge, of like orientation, and nothing else. A triangle it refuses (the third at
+// an edge, a neighbour wound the other way, a duplicate, one that names a position twice) is entered on vertices of its
+// own. Its edges are then copies: edges of equal ends that OpenMesh does not know to be one. Who halves one halves all.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <span>
+
+#include "core/mesh/refined_mesh.h"
+#include "core/scene.h"
+
+namespace radiosity {
+
+/// One side of an edge: the triangle there.
+struct EdgeSide {
+  std::uint32_t triangle = kNothing;  ///< scene triangle; kNothing beyond a boundary
+  glm::uvec2 ends{kNothing};          ///< vertices of the refined mesh, as the triangle is wound
+};
+
+/// Triangles as an OpenMesh mesh. Edges keep their numbers; new ones are added behind.
+class OpenMeshBridge {
+ public:
+  /// `class_of_vertex` [vertex_count] says which vertices share a position, `position_of_class` where.
+  OpenMeshBridge(std::span<const glm::uvec3> triangles, std::span<const std::uint32_t> class_of_vertex,
+                 std::span<const glm::vec3> position_of_class);
+  ~OpenMeshBridge();
+  OpenMeshBridge(const OpenMeshBridge&) = delete;
+  OpenMeshBridge& operator=(const OpenMeshBridge&) = delete;
+
+  std::uint32_t edge_count() const;
+  std::uint32_t face_count() const;
+
+  /// The position classes of the ends, the smaller first: copies of an edge, and only they, agree in it.
+  glm::uvec2 end_classes(std::uint32_t edge) const;
+  /// False if `edge` certainly has no copies.
+  bool may_have_copies(std::uint32_t edge) const;
+  /// `which` is 0 or 1; at least one of the two sides has a triangle.
+  EdgeSide side(std::uint32_t edge, int which) const;
+
+  /// Opens a round in which `edges` edges, `sides` triangles at them counted, will be halved.
+  void begin_round(std::size_t edges, std::size_t sides);
+  /// Halves an edge that existed when the round began: at `position`, which is that of class `position_class`. Side i
+  /// names the midpoint `midpoint_of_side[i]`.
+  void halve(std::uint32_t edge, std::uint32_t position_class, const glm::vec3& position,
+             const std::array<std::uint32_t, 2>& midpoint_of_side);
+  /// Turns edges inside the triangles of this round so that the cut is the one drawn in subdivide_uniform.h.
+  void end_round();
+
+  /// Fills in the elements, grouped by ascending triangle. An uncut triangle's corners keep their order.
+  void write_elements(RefinedMesh& mesh) const;
+
+ private:
+  struct Net;
+  std::unique_ptr<Net> net_;
+};
+
+}  // namespace radiosity

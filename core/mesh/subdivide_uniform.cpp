@@ -1,1 +1,299 @@
-// placeholder
+#include "core/mesh/subdivide_uniform.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "core/mesh/openmesh_bridge.h"
+#include "core/mesh/weld.h"
+
+namespace radiosity {
+namespace {
+
+/// OpenMesh numbers halfedges with int; three or so per element.
+constexpr std::size_t kMostElements = 300'000'000;
+
+/// How many elements the default patch size is meant to give.
+constexpr double kDefaultElementCount = 4000.0;
+
+/// Edges between two looks at the progress: about a millisecond of work.
+constexpr std::size_t kEdgesPerUpdate = 4096;
+
+/// Halfway between two positions, the same from either end.
+glm::vec3 midpoint(const glm::vec3& a, const glm::vec3& b) { return 0.5F * a + 0.5F * b; }
+
+/// Halfway between two shading normals, of unit length again; zero if either is (shaded flat).
+glm::vec3 mid_normal(const glm::vec3& a, const glm::vec3& b) {
+  if (a == glm::vec3(0.0F) || b == glm::vec3(0.0F)) {
+    return glm::vec3(0.0F);
+  }
+  const glm::vec3 sum = a + b;
+  const float length = glm::length(sum);
+  return length > 0.0F ? sum / length : a;  // opposite normals have no middle
+}
+
+double squared_distance(const glm::vec3& a, const glm::vec3& b) {
+  const double x = static_cast<double>(a.x) - static_cast<double>(b.x);
+  const double y = static_cast<double>(a.y) - static_cast<double>(b.y);
+  const double z = static_cast<double>(a.z) - static_cast<double>(b.z);
+  return x * x + y * y + z * z;
+}
+
+/// One number for an unordered pair.
+std::uint64_t pair_key(const glm::uvec2& pair) {
+  return std::uint64_t{std::min(pair.x, pair.y)} << 32U | std::max(pair.x, pair.y);
+}
+
+/// The rounds of a subdivision (see the header), on the edges of a bridge to OpenMesh.
+class Subdivider {
+ public:
+  Subdivider(const Scene& scene, const SubdivideOptions& options, const Progress& progress)
+      : options_(options),
+        progress_(progress),
+        welder_(scene.positions.size()),
+        class_of_vertex_(classes_of(scene.positions, welder_)),
+        bridge_(scene.triangles, class_of_vertex_, welder_.positions()) {
+    result_.mesh = unrefined(scene);
+  }
+
+  Subdivision run();
+
+ private:
+  static std::vector<std::uint32_t> classes_of(std::span<const glm::vec3> positions, Welder& welder);
+
+  std::int8_t level_of(std::uint32_t triangle) const {
+    return options_.level_of_triangle.empty() ? kLevelFromPatchSize : options_.level_of_triangle[triangle];
+  }
+  bool asks(std::uint32_t triangle, const glm::uvec2& end_classes) const;
+  bool can_be_halved(const glm::uvec2& end_classes) const;
+  void mark_asked_edges();
+  void mark_copies();
+  std::size_t count_marked_sides() const;
+  void halve_marked_edges(std::size_t side_count);
+  std::uint32_t add_midpoint(const glm::uvec2& ends);
+  std::array<std::uint32_t, 2> midpoint_of_sides(std::uint32_t edge);
+  double rounds_left() const;
+
+  const SubdivideOptions& options_;
+  const Progress& progress_;
+  Welder welder_;  ///< where each position class is; grows with the midpoints
+  std::vector<std::uint32_t> class_of_vertex_;
+  OpenMeshBridge bridge_;
+  Subdivision result_;
+
+  int round_ = 0;
+  double progress_before_round_ = 0.0;
+  double progress_after_round_ = 0.0;
+  std::vector<bool> is_marked_;                                        ///< [edge_count], this round
+  std::size_t marked_count_ = 0;                                       ///< this round
+  std::unordered_map<std::uint64_t, std::uint32_t> midpoint_of_pair_;  ///< this round, where edges may have copies
+};
+
+std::vector<std::uint32_t> Subdivider::classes_of(std::span<const glm::vec3> positions, Welder& welder) {
+  std::vector<std::uint32_t> class_of_vertex;
+  class_of_vertex.reserve(positions.size());
+  for (const glm::vec3& position : positions) {
+    class_of_vertex.push_back(welder.class_of(position));
+  }
+  return class_of_vertex;
+}
+
+bool Subdivider::asks(std::uint32_t triangle, const glm::uvec2& end_classes) const {
+  if (triangle == kNothing) {
+    return false;
+  }
+  const std::int8_t level = level_of(triangle);
+  if (level >= 0) {
+    return level > round_;
+  }
+  const double patch_size = static_cast<double>(options_.patch_size);
+  return patch_size > 0.0 && squared_distance(welder_.positions()[end_classes.x], welder_.positions()[end_classes.y]) >
+                                 patch_size * patch_size;
+}
+
+/// False for edges without length, and for those so short that their middle rounds to an end.
+bool Subdivider::can_be_halved(const glm::uvec2& end_classes) const {
+  const glm::vec3& a = welder_.positions()[end_classes.x];
+  const glm::vec3& b = welder_.positions()[end_classes.y];
+  const glm::vec3 middle = midpoint(a, b);
+  return middle != a && middle != b;
+}
+
+void Subdivider::mark_asked_edges() {
+  is_marked_.assign(bridge_.edge_count(), false);
+  marked_count_ = 0;
+  for (std::uint32_t edge = 0; edge < is_marked_.size(); ++edge) {
+    const glm::uvec2 ends = bridge_.end_classes(edge);
+    if (!asks(bridge_.side(edge, 0).triangle, ends) && !asks(bridge_.side(edge, 1).triangle, ends)) {
+      continue;
+    }
+    if (can_be_halved(ends)) {
+      is_marked_[edge] = true;
+      ++marked_count_;
+    }
+  }
+}
+
+void Subdivider::mark_copies() {
+  // Which pairs of ends are to be halved, of those edges that may have copies.
+  std::unordered_set<std::uint64_t> marked_pairs;
+  for (std::uint32_t edge = 0; edge < is_marked_.size(); ++edge) {
+    if (is_marked_[edge] && bridge_.may_have_copies(edge)) {
+      marked_pairs.insert(pair_key(bridge_.end_classes(edge)));
+    }
+  }
+  if (marked_pairs.empty()) {
+    return;
+  }
+
+  // All edges between them.
+  for (std::uint32_t edge = 0; edge < is_marked_.size(); ++edge) {
+    if (!is_marked_[edge] && bridge_.may_have_copies(edge) &&
+        marked_pairs.contains(pair_key(bridge_.end_classes(edge)))) {
+      is_marked_[edge] = true;
+      ++marked_count_;
+    }
+  }
+}
+
+std::size_t Subdivider::count_marked_sides() const {
+  std::size_t count = 0;
+  for (std::uint32_t edge = 0; edge < is_marked_.size(); ++edge) {
+    if (is_marked_[edge]) {
+      count += bridge_.side(edge, 0).triangle != kNothing ? 1U : 0U;
+      count += bridge_.side(edge, 1).triangle != kNothing ? 1U : 0U;
+    }
+  }
+  return count;
+}
+
+std::uint32_t Subdivider::add_midpoint(const glm::uvec2& ends) {
+  RefinedMesh& mesh = result_.mesh;
+  const auto vertex = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.midpoints.push_back(ends);
+  mesh.positions.push_back(midpoint(mesh.positions[ends.x], mesh.positions[ends.y]));
+  mesh.normals.push_back(mid_normal(mesh.normals[ends.x], mesh.normals[ends.y]));
+  return vertex;
+}
+
+/// One midpoint for each pair of vertices that ends this edge or a copy of it.
+std::array<std::uint32_t, 2> Subdivider::midpoint_of_sides(std::uint32_t edge) {
+  const bool may_have_copies = bridge_.may_have_copies(edge);
+  std::array<glm::uvec2, 2> ends;
+  std::array<std::uint32_t, 2> vertex{kNothing, kNothing};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const EdgeSide side = bridge_.side(edge, static_cast<int>(i));
+    ends[i] = {std::min(side.ends.x, side.ends.y), std::max(side.ends.x, side.ends.y)};
+    if (side.triangle == kNothing) {
+      continue;
+    }
+    if (may_have_copies) {
+      const auto [found, is_new] = midpoint_of_pair_.try_emplace(pair_key(ends[i]), kNothing);
+      if (is_new) {
+        found->second = add_midpoint(ends[i]);
+      }
+      vertex[i] = found->second;
+    } else {
+      vertex[i] = i == 1 && ends[1] == ends[0] ? vertex[0] : add_midpoint(ends[i]);
+    }
+  }
+  return vertex;
+}
+
+void Subdivider::halve_marked_edges(std::size_t side_count) {
+  midpoint_of_pair_.clear();
+  bridge_.begin_round(marked_count_, side_count);
+  for (std::uint32_t edge = 0; edge < is_marked_.size(); ++edge) {
+    if (edge % kEdgesPerUpdate == 0) {
+      const double done = static_cast<double>(edge) / static_cast<double>(is_marked_.size());
+      progress_.update("subdivide", std::lerp(progress_before_round_, progress_after_round_, done));
+    }
+    if (is_marked_[edge]) {
+      const glm::uvec2 ends = bridge_.end_classes(edge);
+      const glm::vec3 middle = midpoint(welder_.positions()[ends.x], welder_.positions()[ends.y]);
+      bridge_.halve(edge, welder_.class_of(middle), middle, midpoint_of_sides(edge));
+    }
+  }
+  bridge_.end_round();
+}
+
+/// Rounds to come, as far as one can tell: the longest edge over the patch size, or the highest level.
+double Subdivider::rounds_left() const {
+  double longest = 0.0;
+  int level = 0;
+  for (std::uint32_t edge = 0; edge < bridge_.edge_count(); ++edge) {
+    const glm::uvec2 ends = bridge_.end_classes(edge);
+    longest = std::max(longest, squared_distance(welder_.positions()[ends.x], welder_.positions()[ends.y]));
+  }
+  for (const std::int8_t asked : options_.level_of_triangle) {
+    level = std::max<int>(level, asked);
+  }
+  const double patch_size = static_cast<double>(options_.patch_size);
+  const double rounds = patch_size > 0.0 ? std::ceil(0.5 * std::log2(longest / (patch_size * patch_size))) : 0.0;
+  return std::max({rounds, static_cast<double>(level), 1.0});
+}
+
+Subdivision Subdivider::run() {
+  const std::size_t max_elements = std::min(options_.max_elements, kMostElements);
+  const double expected_rounds = rounds_left();
+  for (;; ++round_) {
+    // Each round has four times the work of the one before.
+    progress_before_round_ = progress_after_round_;
+    progress_after_round_ = std::min(1.0, std::pow(4.0, round_ + 1.0 - expected_rounds));
+    progress_.update("subdivide", progress_before_round_);
+
+    mark_asked_edges();
+    if (marked_count_ == 0) {
+      break;
+    }
+    mark_copies();
+    const std::size_t side_count = count_marked_sides();
+    if (bridge_.face_count() + side_count > max_elements) {
+      result_.reached_limit = true;
+      break;
+    }
+    halve_marked_edges(side_count);
+  }
+  if (round_ > 0) {
+    bridge_.write_elements(result_.mesh);
+  }
+  progress_.update("subdivide", 1.0);
+  return std::move(result_);
+}
+
+/// Whether no triangle can ask for anything.
+bool wants_nothing(const SubdivideOptions& options) {
+  const std::int8_t lowest_idle = options.patch_size > 0.0F ? 0 : kLevelFromPatchSize;
+  const bool idle_without_levels = !(options.patch_size > 0.0F);
+  return options.level_of_triangle.empty() ? idle_without_levels
+                                           : std::ranges::all_of(options.level_of_triangle, [=](std::int8_t level) {
+                                               return level >= lowest_idle && level <= 0;
+                                             });
+}
+
+}  // namespace
+
+Subdivision subdivide_uniform(const Scene& scene, const SubdivideOptions& options, const Progress& progress) {
+  assert(options.level_of_triangle.empty() || options.level_of_triangle.size() == scene.triangles.size());
+  progress.update("subdivide", 0.0);
+  if (wants_nothing(options)) {
+    return {.mesh = unrefined(scene)};
+  }
+  return Subdivider(scene, options, progress).run();
+}
+
+float default_patch_size(const Scene& scene) {
+  double area = 0.0;
+  for (std::uint32_t triangle = 0; triangle < scene.triangles.size(); ++triangle) {
+    area += 0.5 * static_cast<double>(glm::length(scaled_normal(scene, triangle)));
+  }
+  return static_cast<float>(std::sqrt(area / kDefaultElementCount));
+}
+
+}  // namespace radiosity

@@ -19,28 +19,50 @@ std::size_t hash_of(const glm::vec3& position) {
   return static_cast<std::size_t>(hash);
 }
 
+/// Where the class at `position` is in the table, or the free slot where it belongs.
+std::size_t slot_of(const glm::vec3& position, std::span<const glm::vec3> positions,
+                    std::span<const std::uint32_t> class_in_slot) {
+  const std::size_t last = class_in_slot.size() - 1;
+  std::size_t slot = hash_of(position) & last;
+  while (class_in_slot[slot] != kNothing && positions[class_in_slot[slot]] != position) {
+    slot = (slot + 1) & last;
+  }
+  return slot;
+}
+
 }  // namespace
 
+Welder::Welder(std::size_t expected_count) : class_in_slot_(std::bit_ceil(2 * expected_count + 2), kNothing) {
+  positions_.reserve(expected_count);
+}
+
+std::uint32_t Welder::class_of(const glm::vec3& position) {
+  if (2 * (positions_.size() + 1) > class_in_slot_.size()) {
+    grow();
+  }
+  const std::size_t slot = slot_of(position, positions_, class_in_slot_);
+  if (class_in_slot_[slot] == kNothing) {
+    class_in_slot_[slot] = static_cast<std::uint32_t>(positions_.size());
+    positions_.push_back(position);
+  }
+  return class_in_slot_[slot];
+}
+
+void Welder::grow() {
+  class_in_slot_.assign(2 * class_in_slot_.size(), kNothing);
+  for (std::uint32_t i = 0; i < positions_.size(); ++i) {
+    class_in_slot_[slot_of(positions_[i], positions_, class_in_slot_)] = i;
+  }
+}
+
 Weld weld(std::span<const glm::vec3> positions) {
+  Welder welder(positions.size());
   Weld result;
   result.class_of_vertex.reserve(positions.size());
-
-  // An open-addressing table at most half full: each slot holds the first vertex of a class.
-  const std::size_t slot_count = std::bit_ceil(2 * positions.size() + 1);
-  std::vector<std::uint32_t> first_vertex_in_slot(slot_count, kNothing);
-
-  for (std::uint32_t vertex = 0; vertex < positions.size(); ++vertex) {
-    std::size_t slot = hash_of(positions[vertex]) & (slot_count - 1);
-    while (first_vertex_in_slot[slot] != kNothing && positions[first_vertex_in_slot[slot]] != positions[vertex]) {
-      slot = (slot + 1) & (slot_count - 1);
-    }
-    if (first_vertex_in_slot[slot] == kNothing) {
-      first_vertex_in_slot[slot] = vertex;
-      result.class_of_vertex.push_back(result.class_count++);
-    } else {
-      result.class_of_vertex.push_back(result.class_of_vertex[first_vertex_in_slot[slot]]);
-    }
+  for (const glm::vec3& position : positions) {
+    result.class_of_vertex.push_back(welder.class_of(position));
   }
+  result.class_count = static_cast<std::uint32_t>(welder.positions().size());
   return result;
 }
 
