@@ -1,1 +1,187 @@
-// placeholder
+#include "plugin/image_decode.h"
+
+#include <fmt/format.h>
+#include <jpeglib.h>
+#include <png.h>
+#include <webp/decode.h>
+
+#include <csetjmp>
+#include <cstdio>  // jpeglib.h needs FILE
+#include <cstring>
+#include <new>
+
+namespace gltf_radiosity {
+namespace {
+
+constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 28;
+
+/// Sizes `pixels`; false if the image is empty or larger than allowed.
+bool allocate(Pixels& pixels, std::uint64_t width, std::uint64_t height) {
+  if (width == 0 || height == 0 || width > kMaxPixels || height > kMaxPixels || width * height > kMaxPixels)
+    return false;
+  pixels.width = static_cast<int>(width);
+  pixels.height = static_cast<int>(height);
+  pixels.rgba.resize(width * height * 4);
+  return true;
+}
+
+// PNG. libpng leaves through longjmp, so nothing with a destructor lives in the function that is left.
+
+struct PngSource {
+  std::span<const std::uint8_t> left;
+};
+
+void read_png_bytes(png_structp png, png_bytep to, std::size_t count) {
+  auto* source = static_cast<PngSource*>(png_get_io_ptr(png));
+  if (count > source->left.size()) png_error(png, "truncated");
+  std::memcpy(to, source->left.data(), count);
+  source->left = source->left.subspan(count);
+}
+
+[[noreturn]] void leave_png(png_structp png, png_const_charp) { png_longjmp(png, 1); }
+void ignore_png_warning(png_structp, png_const_charp) {}
+
+/// Asks libpng for 8-bit RGBA, whatever the file holds.
+void expect_rgba(png_structp png, png_infop info) {
+  png_set_expand(png);  // palettes, fewer than 8 bits, tRNS
+  png_set_strip_16(png);
+  png_set_gray_to_rgb(png);
+  png_set_add_alpha(png, 0xff, PNG_FILLER_AFTER);
+  png_set_interlace_handling(png);
+  png_read_update_info(png, info);
+}
+
+bool read_png(png_structp png, png_infop info, PngSource& source, Pixels& pixels) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_set_read_fn(png, &source, read_png_bytes);
+  png_set_user_limits(png, 0x7fffffff, 0x7fffffff);
+  png_read_info(png, info);
+  if (!allocate(pixels, png_get_image_width(png, info), png_get_image_height(png, info))) return false;
+  expect_rgba(png, info);
+  const std::size_t row_size = static_cast<std::size_t>(pixels.width) * 4;
+  if (png_get_rowbytes(png, info) != row_size) return false;
+  // Interlaced images come in several passes over the same rows.
+  const int passes = png_get_interlace_type(png, info) == PNG_INTERLACE_NONE ? 1 : PNG_INTERLACE_ADAM7_PASSES;
+  for (int pass = 0; pass < passes; ++pass) {
+    for (int row = 0; row < pixels.height; ++row) {
+      png_read_row(png, pixels.rgba.data() + static_cast<std::size_t>(row) * row_size, nullptr);
+    }
+  }
+  return true;
+}
+
+bool decode_png(std::span<const std::uint8_t> bytes, Pixels& pixels) {
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, leave_png, ignore_png_warning);
+  png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
+  PngSource source{bytes};
+  bool decoded = false;
+  try {
+    decoded = info != nullptr && read_png(png, info, source, pixels);
+  } catch (const std::bad_alloc&) {
+    decoded = false;
+  }
+  png_destroy_read_struct(&png, &info, nullptr);
+  return decoded;
+}
+
+// JPEG. The same holds for libjpeg.
+
+struct JpegErrors {
+  jpeg_error_mgr manager;
+  std::jmp_buf leave;
+};
+
+[[noreturn]] void leave_jpeg(j_common_ptr jpeg) {
+  // The manager is the first member of JpegErrors (libjpeg.txt, "Error handling").
+  std::longjmp(reinterpret_cast<JpegErrors*>(jpeg->err)->leave, 1);
+}
+void ignore_jpeg_message(j_common_ptr) {}
+
+/// CMYK as Adobe stores it, inverted, to RGB.
+void cmyk_to_rgba(std::uint8_t* row, int width, bool inverted) {
+  for (int x = 0; x < width; ++x) {
+    std::uint8_t* pixel = row + static_cast<std::size_t>(x) * 4;
+    const unsigned key = inverted ? pixel[3] : 255U - pixel[3];
+    for (int band = 0; band < 3; ++band) {
+      const unsigned ink = inverted ? pixel[band] : 255U - pixel[band];
+      pixel[band] = static_cast<std::uint8_t>(ink * key / 255U);
+    }
+    pixel[3] = 255;
+  }
+}
+
+bool read_jpeg(jpeg_decompress_struct& jpeg, std::span<const std::uint8_t> bytes, Pixels& pixels) {
+  jpeg_mem_src(&jpeg, bytes.data(), bytes.size());
+  if (jpeg_read_header(&jpeg, TRUE) != JPEG_HEADER_OK) return false;
+  const bool cmyk = jpeg.jpeg_color_space == JCS_CMYK || jpeg.jpeg_color_space == JCS_YCCK;
+  jpeg.out_color_space = cmyk ? JCS_CMYK : JCS_EXT_RGBA;
+  if (!allocate(pixels, jpeg.image_width, jpeg.image_height)) return false;
+  jpeg_start_decompress(&jpeg);
+  if (jpeg.output_components != 4) return false;
+  while (jpeg.output_scanline < jpeg.output_height) {
+    std::uint8_t* row =
+        pixels.rgba.data() + std::size_t{jpeg.output_scanline} * static_cast<std::size_t>(pixels.width) * 4;
+    jpeg_read_scanlines(&jpeg, &row, 1);
+    if (cmyk) cmyk_to_rgba(row, pixels.width, jpeg.saw_Adobe_marker != FALSE);
+  }
+  jpeg_finish_decompress(&jpeg);
+  return true;
+}
+
+bool decode_jpeg(std::span<const std::uint8_t> bytes, Pixels& pixels) {
+  jpeg_decompress_struct jpeg{};
+  JpegErrors errors{};
+  jpeg.err = jpeg_std_error(&errors.manager);
+  errors.manager.error_exit = leave_jpeg;
+  errors.manager.output_message = ignore_jpeg_message;
+  volatile bool decoded = false;
+  if (setjmp(errors.leave) == 0) {
+    jpeg_create_decompress(&jpeg);
+    try {
+      decoded = read_jpeg(jpeg, bytes, pixels);
+    } catch (const std::bad_alloc&) {
+      decoded = false;
+    }
+  }
+  jpeg_destroy_decompress(&jpeg);
+  return decoded;
+}
+
+// WebP.
+
+bool decode_webp(std::span<const std::uint8_t> bytes, Pixels& pixels) {
+  int width = 0, height = 0;
+  if (WebPGetInfo(bytes.data(), bytes.size(), &width, &height) == 0 || width <= 0 || height <= 0) return false;
+  if (!allocate(pixels, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height))) return false;
+  return WebPDecodeRGBAInto(bytes.data(), bytes.size(), pixels.rgba.data(), pixels.rgba.size(), width * 4) != nullptr;
+}
+
+bool starts_with(std::span<const std::uint8_t> bytes, std::string_view signature) {
+  return bytes.size() >= signature.size() && std::memcmp(bytes.data(), signature.data(), signature.size()) == 0;
+}
+
+}  // namespace
+
+Result<Pixels> decode_image(std::span<const std::uint8_t> bytes, const std::string& place) {
+  using Decoder = bool (*)(std::span<const std::uint8_t>, Pixels&);
+  struct Format {
+    std::string_view signature, name;
+    Decoder decoder;
+  };
+  constexpr Format kFormats[] = {{"\x89PNG", "PNG", decode_png},
+                                 {"\xff\xd8\xff", "JPEG", decode_jpeg},
+                                 {"RIFF", "WebP", decode_webp},
+                                 {"\xabKTX 20\xbb", "KTX2", nullptr},
+                                 {"DDS ", "DDS", nullptr}};
+  for (const Format& format : kFormats) {
+    if (!starts_with(bytes, format.signature)) continue;
+    if (format.decoder == nullptr) return bad_input(place, fmt::format("{} textures are not supported", format.name));
+    Pixels pixels;
+    if (!format.decoder(bytes, pixels))
+      return bad_input(place, fmt::format("the {} image is broken or too large", format.name));
+    return pixels;
+  }
+  return bad_input(place, "is neither PNG, JPEG nor WebP");
+}
+
+}  // namespace gltf_radiosity

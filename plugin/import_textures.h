@@ -3,12 +3,12 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
-#include <memory>
-#include <vector>
-
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
+#include <map>
+#include <memory>
+#include <tuple>
+#include <vector>
 
 #include "plugin/document.h"
 
@@ -18,31 +18,43 @@ struct MipPyramid;  // decoded image with prefiltered levels (import_textures.cp
 
 enum class Wrap : std::uint16_t { kRepeat = 10497, kClampToEdge = 33071, kMirroredRepeat = 33648 };
 
-/// One use of a texture by a material. Empty (no image) answers white everywhere.
+/// What a texture holds.
+enum class TexelKind : std::uint8_t {
+  kData,          ///< numbers as they are
+  kColor,         ///< sRGB colours; alpha is a number and has no say in averages of the colour
+  kCoveredColor,  ///< sRGB colours where alpha says there is something: averages of the colour are weighted by alpha
+};
+
+/// One use of a texture by a material. Empty (no image) answers white everywhere. Thread-safe.
 struct TextureSlot {
-  std::shared_ptr<const MipPyramid> image;  ///< values linear if read as sRGB; shared between slots
+  std::shared_ptr<const MipPyramid> image;  ///< shared between slots
   Wrap wrap_s = Wrap::kRepeat, wrap_t = Wrap::kRepeat;
-  int texcoord = 0;                         ///< TEXCOORD_n, KHR_texture_transform's override applied
-  glm::vec2 offset{0.0F}, scale{1.0F};      ///< KHR_texture_transform
-  float rotation = 0.0F;                    ///< rad
+  int texcoord = 0;                     ///< TEXCOORD_n, KHR_texture_transform's override applied
+  glm::vec2 offset{0.0F}, scale{1.0F};  ///< KHR_texture_transform
+  float rotation = 0.0F;                ///< rad
 
   explicit operator bool() const { return image != nullptr; }
   /// Bilinear value at a texture coordinate, linear RGBA.
   glm::vec4 at(glm::vec2 uv) const;
-  /// Mean over the triangle uv[0..2], linear RGBA: every texel it covers counts by area, through prefiltered levels.
+  /// Mean over the triangle uv[0..2], linear RGBA: every texel counts by the area it covers. Large triangles are
+  /// averaged through prefiltered levels, whose texels count whole along the edges.
   glm::vec4 mean(const std::array<glm::vec2, 3>& uv) const;
+
+ private:
+  glm::vec2 transformed(glm::vec2 uv) const;
 };
 
 /// Decodes each image once. An image that cannot be decoded is an error that names it.
 class TextureLibrary {
  public:
+  /// `document` must outlive the library.
   explicit TextureLibrary(const Document& document) : document_(document) {}
-  /// `info` is a glTF textureInfo object ({"index": ..., "texCoord": ...}). `srgb`: colours are sRGB encoded (alpha never is).
-  Result<TextureSlot> slot(const Json& info, bool srgb, const std::string& place);
+  /// `info` is a glTF textureInfo object ({"index": ..., "texCoord": ...}).
+  Result<TextureSlot> slot(const Json& info, TexelKind kind);
 
  private:
   const Document& document_;
-  std::map<std::pair<std::size_t, bool>, std::shared_ptr<const MipPyramid>> decoded_;
+  std::map<std::pair<std::size_t, TexelKind>, std::shared_ptr<const MipPyramid>> decoded_;
 };
 
 }  // namespace gltf_radiosity
