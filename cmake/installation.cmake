@@ -3,6 +3,13 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/gltf_radiosity)
 
+# A shared library is found by the command that is installed beside it.
+set_target_properties(gltf_radiosity PROPERTIES VERSION ${PROJECT_VERSION}
+                      SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+if(BUILD_SHARED_LIBS)
+  set_target_properties(gltf_radiosity_cli PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+endif()
+
 install(TARGETS gltf_radiosity EXPORT gltf_radiosity_targets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS gltf_radiosity_cli)
 install(FILES ${PROJECT_SOURCE_DIR}/plugin/gltf_radiosity.h ${PROJECT_SOURCE_DIR}/plugin/result.h
