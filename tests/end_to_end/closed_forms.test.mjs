@@ -1,0 +1,128 @@
+// Light that is known without computing it, as it arrives in COLOR_0 through the whole program.
+import assert from 'node:assert/strict'
+import path from 'node:path'
+import test from 'node:test'
+import { colors_of } from './baked.mjs'
+import { bake, sanitized, temporary_folder, test_asset } from './command_line.mjs'
+import { primitives_of_scene, read_accessor, read_gltf } from './gltf_file.mjs'
+
+const folder = temporary_folder()
+
+// Bakes and answers, for each node by its name, [{ position, color }].
+function vertices_of(scene, ...options) {
+  const output = path.join(folder, scene)
+  bake(test_asset(scene), output, '--exposure', 1, '--refine', 'none', ...options)
+  const gltf = read_gltf(output)
+  const nodes = {}
+  for (const [node, primitive] of primitives_of_scene(gltf)) {
+    if (primitive.attributes.COLOR_0 === undefined) continue
+    const positions = read_accessor(gltf, primitive.attributes.POSITION)
+    const colors = colors_of(gltf, primitive)
+    nodes[gltf.json.nodes[node].name] = positions.map((position, k) => ({ position, color: colors[k] }))
+  }
+  return nodes
+}
+
+function assert_near(actual, expected, tolerance, what) {
+  assert.ok(Math.abs(actual - expected) <= tolerance, `${what}: ${actual}, not ${expected} +- ${tolerance}`)
+}
+
+for (const percent of [50, 90]) {
+  test(`a white furnace of reflectance 0.${percent} shows Le / (1 - rho) within 0.5 % at every vertex`, () => {
+    const { furnace } = vertices_of(`white_furnace_${percent}.glb`)
+    for (const { position, color } of furnace) {
+      for (const band of color.slice(0, 3)) assert_near(band, 0.5, 0.0025, `vertex at ${position}`)
+    }
+  })
+}
+
+test('a white plane with vertex colours shows them under pi lux', () => {
+  const { plane } = vertices_of('already_coloured.glb')
+  for (const { position, color } of plane) {
+    const source = position[0] < 0 ? [255, 128, 0, 255] : [51, 102, 204, 255]
+    // The columns at x = 0 and left of it touch triangles that blend both colours.
+    if (Math.abs(position[0]) > 0.6) color.forEach((band, k) => assert_near(band, source[k] / 255, 0.002, `vertex at ${position}`))
+  }
+})
+
+// Candela arriving per square metre from the lights of lights_all_kinds.glb, as KHR_lights_punctual defines them.
+function irradiance_of_all_lights([x, y, z]) {
+  const from_point = (lamp, color, strength) => {
+    const to_lamp = lamp.map((at, k) => at - [x, y, z][k])
+    const distance = Math.hypot(...to_lamp)
+    const cosine = to_lamp[1] / distance
+    return color.map((band) => (band * strength(distance, cosine) * cosine) / distance ** 2)
+  }
+  const windowed = (distance) => Math.max(Math.min(1 - (distance / 4) ** 4, 1), 0)
+  const [inner, outer] = [Math.cos(0.3), Math.cos(0.6)]
+  const cone = (_, cosine) => 1.5 * Math.min(Math.max((cosine - outer) / Math.max(0.001, inner - outer), 0), 1) ** 2
+  const point = from_point([-2, 1, 0], [1, 0.5, 0.25], windowed)
+  const spot = from_point([2, 1, 0], [0.25, 0.5, 1], cone)
+  return point.map((band, k) => band + spot[k] + 0.2)
+}
+
+test('a floor under a point, a spot and a directional light shows rho H / pi', () => {
+  const { floor } = vertices_of('lights_all_kinds.glb')
+  const brightest = Math.max(...floor.map(({ position }) => (0.5 * irradiance_of_all_lights(position)[0]) / Math.PI))
+  for (const { position, color } of floor) {
+    const irradiance = irradiance_of_all_lights(position)
+    // Vertices average their triangles, 12 cm wide: exact in the flat parts, a few percent off where light curves.
+    color.slice(0, 3).forEach((band, k) =>
+      assert_near(band, (0.5 * irradiance[k]) / Math.PI, 0.06 * brightest, `band ${k} at ${position}`))
+  }
+})
+
+test('no light leaks below a wall into a dark room', { skip: sanitized() && 'takes minutes under sanitizers' }, () => {
+  const { shell } = vertices_of('two_rooms.glb', '--quality', 'draft')
+  const lit = shell.filter(({ position: [x] }) => x < 1.85)
+  const dark = shell.filter(({ position: [x] }) => x > 2.25)
+  const mean = (vertices) => vertices.reduce((sum, { color }) => sum + color[1], 0) / vertices.length
+  assert.ok(mean(lit) > 0.05, `the lit room shows ${mean(lit)}`)
+  for (const { position, color } of dark) assert_near(color[1], 0, 0.001 * mean(lit), `vertex at ${position}`)
+})
+
+test('a mirrored instance shows the mirrored light', () => {
+  const { left, right } = vertices_of('mirrored_instance.glb')
+  const brightest = Math.max(...right.map(({ color }) => color[1]))
+  assert.ok(brightest > 0.05, `the brightest vertex shows ${brightest}`)
+  right.forEach(({ position, color }, k) => assert_near(left[k].color[1], color[1], 0.02 * brightest, `vertex at ${position}`))
+})
+
+test('vertices on both sides of a seam show the same light', () => {
+  const { tube } = vertices_of('uv_seam.glb')
+  const lit = tube.filter(({ position: [x, , z] }) => Math.abs(x) < 1e-6 && z > 0)
+  assert.equal(lit.length, 10)
+  for (const { position, color } of lit) {
+    for (const other of lit.filter((vertex) => vertex.position[1] === position[1])) assert.deepEqual(other.color, color)
+    assert.ok(color[1] > 0.1, `the seam shows ${color[1]} at ${position}`)
+  }
+})
+
+test('a plate casts its shadow', () => {
+  const { floor } = vertices_of('occluder.glb')
+  for (const { position: [x, , z], color } of floor) {
+    const nearest = Math.max(Math.abs(x), Math.abs(z))
+    // In the umbra, 2 m wide, light comes only from below the plate, which is black; beyond it from the lamp.
+    const cosine = 3 / Math.hypot(x, 3, z)
+    const lit = (0.5 * 30 * cosine) / Math.hypot(x, 3, z) ** 2 / Math.PI
+    if (nearest < 0.8) assert_near(color[1], 0, 0.001, `shadow at ${x},${z}`)
+    if (nearest > 1.2 && nearest < 1.8) assert_near(color[1], lit, 0.02 * lit, `light at ${x},${z}`)
+  }
+})
+
+test('a court under a sky of 1 cd/m2 is brighter on its walls than in its corners, and nowhere brighter than its reflectance', () => {
+  const { ground, north_wall } = vertices_of('sky_court.glb', '--sky', '1,1,1')
+  const color_at = (x, z) => ground.find(({ position }) => position[0] === x && position[2] === z).color
+  assert.ok(color_at(3, 3)[0] > 1.1 * color_at(5, 5)[0], `${color_at(3, 3)[0]} in the open, ${color_at(5, 5)[0]} in a corner`)
+  for (const { color } of ground) assert.ok(color[0] < 0.4, `the ground shows ${color[0]}`)
+  const tops = north_wall.filter(({ position }) => position[1] === 4)
+  assert.ok(tops.some(({ color }) => Math.abs(color[0] - 0.7) < 0.01), 'the top of the wall sees all of the sky')
+})
+
+test('a point light in a room compressed by Draco lights all six walls alike', () => {
+  const { box } = vertices_of('draco_box.glb')
+  assert.equal(box.length, 24)
+  const mean = box.reduce((sum, { color }) => sum + color[1], 0) / box.length
+  assert.ok(mean > 0.05, `the walls show ${mean}`)
+  for (const { position, color } of box) assert_near(color[1], mean, 0.1 * mean, `vertex at ${position}`)
+})

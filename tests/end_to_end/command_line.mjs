@@ -1,0 +1,42 @@
+// Runs the built command line as a person or a pipeline would.
+import { spawnSync } from 'node:child_process'
+import fs from 'node:fs'
+import os from 'node:os'
+import path from 'node:path'
+
+// Where CTest says that a thing is; a test without it must fail.
+export function from_environment(name) {
+  const value = process.env[name]
+  if (!value) throw new Error(`${name} is not set: run these tests through ctest`)
+  return value
+}
+
+export const program = () => from_environment('GLTF_RADIOSITY_CLI')
+export const test_asset = (name) => path.join(from_environment('GLTF_RADIOSITY_TEST_ASSETS'), name)
+// Sanitizers make everything ten times slower: tests then take fewer scenes.
+export const sanitized = () => process.env.GLTF_RADIOSITY_SANITIZED === '1'
+
+// A folder that goes away with the process.
+export function temporary_folder() {
+  const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'gltf-radiosity-test-'))
+  process.on('exit', () => fs.rmSync(folder, { recursive: true, force: true }))
+  return folder
+}
+
+// { code, signal, stdout, stderr, lines (of stderr), seconds }
+export function run(...args) {
+  const start = process.hrtime.bigint()
+  const limits = { encoding: 'utf8', timeout: 300_000, maxBuffer: 1 << 28 }
+  const { status, signal, stdout, stderr, error } = spawnSync(program(), args.map(String), limits)
+  if (error && error.code !== 'ETIMEDOUT') throw error
+  const seconds = Number(process.hrtime.bigint() - start) / 1e9
+  const lines = stderr.split('\n').filter((line) => line !== '')
+  return { code: status, signal, stdout, stderr, lines, seconds }
+}
+
+// Bakes or throws; answers the report.
+export function bake(input, output, ...options) {
+  const { code, signal, stdout, stderr } = run(input, output, '--progress', 'none', '--json', '-', ...options)
+  if (code !== 0) throw new Error(`exit ${code ?? signal} for ${[input, ...options].join(' ')}\n${stderr}`)
+  return JSON.parse(stdout)
+}

@@ -1,0 +1,137 @@
+// The promises of the command line: exit codes, silence, reports, and the same bytes for any number of threads.
+import assert from 'node:assert/strict'
+import { spawn } from 'node:child_process'
+import fs from 'node:fs'
+import path from 'node:path'
+import test from 'node:test'
+import { check_baked, colors_of } from './baked.mjs'
+import { bake, program, run, sanitized, temporary_folder, test_asset } from './command_line.mjs'
+import { primitives_of_scene, read_gltf } from './gltf_file.mjs'
+
+const folder = temporary_folder()
+const target = (name) => path.join(folder, name)
+const mean = (values) => values.reduce((sum, value) => sum + value, 0) / values.length
+
+for (const scene of ['cornell_box', 'textured_interior', 'lights_all_kinds']) {
+  test(`${scene} bakes to the same bytes with 1, 2 and 7 threads`, () => {
+    const outputs = [1, 2, 7].map((threads) => {
+      const output = target(`${scene}.glb`)
+      bake(test_asset(`${scene}.glb`), output, '--quality', 'draft', '--threads', threads)
+      return fs.readFileSync(output)
+    })
+    assert.ok(outputs[1].equals(outputs[0]), '2 threads differ from 1')
+    assert.ok(outputs[2].equals(outputs[0]), '7 threads differ from 1')
+  })
+}
+
+test('a scene without any light gets a white sky and a warning', async () => {
+  const output = target('sky.glb')
+  const { code, stdout, stderr } = run(test_asset('unit_cube.glb'), output)
+  assert.equal(code, 0, stderr)
+  assert.equal(stdout, '')
+  assert.match(stderr, /sky/)
+  const baked = await check_baked(test_asset('unit_cube.glb'), output)
+  const [[, cube]] = primitives_of_scene(baked.output)
+  for (const [red] of colors_of(baked.output, cube)) assert.ok(red > 0.4 && red <= 1, `a vertex shows ${red}`)
+})
+
+test('--no-default-sky bakes black', () => {
+  const output = target('black.glb')
+  bake(test_asset('unit_cube.glb'), output, '--no-default-sky')
+  const gltf = read_gltf(output)
+  const [[, cube]] = primitives_of_scene(gltf)
+  for (const color of colors_of(gltf, cube)) assert.deepEqual(color, [0, 0, 0, 1])
+})
+
+test('--sky and --sun light a scene, and nothing is warned of', () => {
+  const report = bake(test_asset('sky_court.glb'), target('sun.glb'), '--quality', 'draft', '--sky', '0.1,0.2,0.4', '--sun', '60,30,2')
+  assert.deepEqual(report.warnings.map(({ code }) => code), [])
+  const gltf = read_gltf(target('sun.glb'))
+  assert.ok(mean(primitives_of_scene(gltf).flatMap(([, primitive]) => colors_of(gltf, primitive).map(([red]) => red))) > 0.1)
+})
+
+test('--exposure scales the colours and is written into the file', () => {
+  const colors = [0.25, 0.5].map((exposure) => {
+    const output = target(`exposure_${exposure}.glb`)
+    const report = bake(test_asset('occluder.glb'), output, '--refine', 'none', '--exposure', exposure)
+    assert.equal(report.exposure, exposure)
+    const gltf = read_gltf(output)
+    assert.equal(gltf.json.asset.extras.radiosity.exposure, exposure)
+    return mean(primitives_of_scene(gltf).flatMap(([, primitive]) => colors_of(gltf, primitive).map(([red]) => red)))
+  })
+  assert.ok(Math.abs(colors[1] / colors[0] - 2) < 1e-3, `means ${colors}`)
+})
+
+test('the report accounts for the light: what was emitted was absorbed or escaped', () => {
+  for (const scene of ['cornell_box', 'white_furnace_50', 'draco_box']) {
+    const report = bake(test_asset(`${scene}.glb`), target('balance.glb'), '--refine', 'none')
+    const { emitted_flux, absorbed_flux, escaped_flux, residual } = report
+    const lost = Math.abs(emitted_flux - absorbed_flux - escaped_flux)
+    assert.ok(emitted_flux > 0 && lost <= (residual + 0.02) * emitted_flux, `${scene}: ${JSON.stringify(report)}`)
+  }
+})
+
+test('the report names counts, phases and the exposure, and goes to a file or to stdout', () => {
+  const file = target('report.json')
+  assert.equal(run(test_asset('cornell_box.glb'), target('report.glb'), '--quality', 'draft', '--json', file).code, 0)
+  const report = JSON.parse(fs.readFileSync(file, 'utf8'))
+  assert.equal(report.input_triangles, 32)
+  assert.ok(report.output_triangles >= 32 && report.patches > 0 && report.exposure > 0)
+  assert.ok(report.phases.length >= 4 && report.phases.every(({ seconds }) => seconds >= 0))
+})
+
+test('progress is plain lines where there is no terminal, and stdout stays empty', () => {
+  const { code, stdout, stderr, lines } = run(test_asset('cornell_box.glb'), target('progress.glb'), '--quality', 'draft')
+  assert.equal(code, 0)
+  assert.equal(stdout, '')
+  assert.ok(lines.length > 2, stderr)
+  assert.ok(!/[\r\x1b]/.test(stderr), 'no control characters')
+})
+
+test('usage that is wrong ends with 2 and one line', () => {
+  const cube = test_asset('unit_cube.glb')
+  const wrong = [
+    [], [cube], [cube, target('x.glb'), '--no-such-option'], [cube, target('x.glb'), '--refine', 'maybe'],
+    [cube, target('x.glb'), '--sky', '1,1'], [cube, target('x.glb'), '--hemicube', '3'], [cube, target('x.glb'), '--threads', 'nan'],
+  ]
+  for (const args of wrong) {
+    const { code, stdout, lines } = run(...args)
+    assert.equal(code, 2, args.join(' '))
+    assert.equal(stdout, '')
+    assert.equal(lines.length, 1, lines.join('\n'))
+  }
+  assert.ok(!fs.existsSync(target('x.glb')))
+})
+
+test('--help and --version answer on stdout', () => {
+  for (const option of ['--help', '--version']) {
+    const { code, stdout, stderr } = run(option)
+    assert.equal(code, 0)
+    assert.equal(stderr, '')
+    assert.match(stdout, /gltf-radiosity/)
+  }
+})
+
+test('an output that cannot be written ends with 3', () => {
+  for (const output of [target('no/such/folder/out.glb'), '/dev/full/out.glb']) {
+    const { code, lines } = run(test_asset('unit_cube.glb'), output, '--progress', 'none', '--sky', '1,1,1')
+    assert.equal(code, 3, lines.join('\n'))
+    assert.equal(lines.length, 1, lines.join('\n'))
+  }
+})
+
+test('an interrupted bake stops soon, says so by its exit code, and leaves the old file', async () => {
+  const output = target('old.glb')
+  fs.writeFileSync(output, 'old')
+  const options = ['--patch-size', '0.004', '--hemicube', '128']
+  const child = spawn(program(), [test_asset('cornell_box.glb'), output, ...options], { stdio: ['ignore', 'ignore', 'pipe'] })
+  const ended = new Promise((resolve) => child.on('exit', (code, signal) => resolve({ code, signal })))
+  await new Promise((resolve) => child.stderr.once('data', resolve))
+  const start = Date.now()
+  child.kill('SIGINT')
+  const { code, signal } = await ended
+  assert.ok(code === 130 || signal === 'SIGINT', `exit ${code ?? signal}`)
+  assert.ok(Date.now() - start < (sanitized() ? 20_000 : 5_000), `${Date.now() - start} ms to stop`)
+  assert.equal(fs.readFileSync(output, 'utf8'), 'old')
+  assert.deepEqual(fs.readdirSync(folder).filter((name) => name.startsWith('old.glb')), ['old.glb'])
+})

@@ -1,0 +1,31 @@
+// Every test scene, with the options that change what is written.
+import assert from 'node:assert/strict'
+import fs from 'node:fs'
+import path from 'node:path'
+import test from 'node:test'
+import { check_baked } from './baked.mjs'
+import { bake, sanitized, temporary_folder, test_asset } from './command_line.mjs'
+
+const folder = temporary_folder()
+const draft = ['--quality', 'draft']
+const option_sets = [
+  { output: 'as_it_is.glb', options: ['--refine', 'none'] },
+  { output: 'uniform.gltf', options: ['--refine', 'uniform', '--color-type', 'u16'] },
+  { output: 'uniform.embedded.gltf', options: ['--refine', 'none', '--color-type', 'u8', '--sky', '0.2,0.3,0.5'] },
+]
+const scenes = fs.readdirSync(test_asset('')).filter((name) => /\.(glb|gltf)$/.test(name))
+// Under sanitizers the large Cornell boxes and rooms take minutes, and have nothing that the small ones have not.
+const too_slow = sanitized() ? ['cornell_box_5000.glb', 'cornell_box_1500.glb', 'two_rooms.glb'] : []
+
+test('the test scenes have been made', () => assert.ok(scenes.length >= 20, `${scenes.length} scenes`))
+
+for (const scene of scenes.filter((name) => !too_slow.includes(name))) {
+  for (const { output, options } of option_sets) {
+    test(`${scene} bakes with ${options.join(' ')} to ${output.replace(/^\w+/, '')}`, async () => {
+      const target = path.join(folder, scene, output)
+      fs.mkdirSync(path.dirname(target), { recursive: true })
+      bake(test_asset(scene), target, ...draft, ...options)
+      await check_baked(test_asset(scene), target)
+    })
+  }
+}

@@ -1,0 +1,136 @@
+// Geometry, extras, extensions, images, skins, animations: what a bake does not need, it leaves alone.
+import assert from 'node:assert/strict'
+import fs from 'node:fs'
+import path from 'node:path'
+import test from 'node:test'
+import { check_baked, colors_of, has_triangles } from './baked.mjs'
+import { bake, temporary_folder, test_asset } from './command_line.mjs'
+import { primitives_of_scene, read_accessor, read_gltf, triangles_of } from './gltf_file.mjs'
+
+const folder = temporary_folder()
+
+// { input, output } of a bake that passed every check of check_baked.
+async function baked(scene, output, ...options) {
+  const target = path.join(folder, output)
+  bake(test_asset(scene), target, '--quality', 'draft', ...options)
+  return check_baked(test_asset(scene), target)
+}
+
+function area_of(gltf, primitive) {
+  const positions = read_accessor(gltf, primitive.attributes.POSITION)
+  return triangles_of(gltf, primitive).reduce((sum, [a, b, c]) => {
+    const [u, v] = [b, c].map((corner) => positions[corner].map((x, k) => x - positions[a][k]))
+    return sum + Math.hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]) / 2
+  }, 0)
+}
+
+const areas = (gltf) => primitives_of_scene(gltf)
+  .filter(([, primitive]) => has_triangles(primitive))
+  .map(([, primitive]) => area_of(gltf, primitive))
+
+test('integers beyond 53 bits, null, empty objects and tiny numbers in extras survive', async () => {
+  const { input, output } = await baked('extras_everywhere.glb', 'extras.glb')
+  // JavaScript cannot hold these integers: count their digits in the text.
+  const count = (file) => fs.readFileSync(file, 'latin1').split('9007199254740993').length
+  assert.ok(count(path.join(folder, 'extras.glb')) >= count(test_asset('extras_everywhere.glb')))
+  assert.equal(output.json.scenes.length, input.json.scenes.length)
+})
+
+test('a mesh that was unlit stays as it was', async () => {
+  const { input, output } = await baked('extras_everywhere.glb', 'unlit.glb')
+  const sign = input.json.nodes.findIndex(({ name }) => name === 'sign')
+  const [before, after] = [input, output].map((gltf) => primitives_of_scene(gltf).find(([node]) => node === sign)[1])
+  assert.equal(after.attributes.COLOR_0, undefined)
+  assert.deepEqual(after, before)
+})
+
+for (const refine of ['none', 'uniform']) {
+  test(`no triangle is lost at a non-manifold edge (--refine ${refine})`, async () => {
+    const { input, output } = await baked('non_manifold.glb', `fins_${refine}.glb`, '--refine', refine)
+    const [[, before]] = primitives_of_scene(input)
+    const [[, after]] = primitives_of_scene(output)
+    const counts = [before, after].map((primitive, k) => triangles_of([input, output][k], primitive).length)
+    if (refine === 'none') assert.equal(counts[1], counts[0])
+    else assert.ok(counts[1] > counts[0], `${counts[1]} triangles, the source had ${counts[0]}`)
+  })
+
+  for (const scene of ['non_manifold', 'strip', 'uv_seam', 'mirrored_instance', 'skinned_and_morphed', 'cornell_box']) {
+    test(`${scene} keeps its area (--refine ${refine})`, async () => {
+      const { input, output } = await baked(`${scene}.glb`, `${scene}_${refine}.glb`, '--refine', refine)
+      areas(input).forEach((area, k) => assert.ok(Math.abs(areas(output)[k] / area - 1) < 1e-5, `primitive ${k}`))
+    })
+  }
+}
+
+test('skins, weights and morph targets follow the subdivision', async () => {
+  const { input, output } = await baked('skinned_and_morphed.glb', 'moving.glb', '--refine', 'uniform', '--patch-size', 0.06)
+  for (const [k, [, primitive]] of primitives_of_scene(output).entries()) {
+    const count = (index) => output.json.accessors[index].count
+    const vertices = count(primitive.attributes.POSITION)
+    assert.ok(vertices > input.json.accessors[primitives_of_scene(input)[k][1].attributes.POSITION].count)
+    for (const index of Object.values(primitive.attributes)) assert.equal(count(index), vertices)
+    for (const target of primitive.targets ?? []) {
+      for (const index of Object.values(target)) assert.equal(count(index), vertices)
+    }
+    if (primitive.attributes.WEIGHTS_0 === undefined) continue
+    for (const weights of read_accessor(output, primitive.attributes.WEIGHTS_0)) {
+      assert.ok(Math.abs(weights.reduce((sum, weight) => sum + weight) - 1) < 1e-5, `weights ${weights}`)
+    }
+  }
+})
+
+test('points and lines stay beside the baked triangles', async () => {
+  const { input, output } = await baked('points_and_lines.glb', 'points.glb')
+  const [before, after] = [input, output].map((gltf) => primitives_of_scene(gltf).map(([, primitive]) => primitive))
+  for (const k of [0, 2]) assert.deepEqual(after[k], before[k])
+  assert.notEqual(after[1].attributes.COLOR_0, undefined)
+})
+
+test('two nodes with one mesh get a COLOR_0 each and share the rest', async () => {
+  const { output } = await baked('mirrored_instance.glb', 'instances.glb', '--refine', 'none')
+  const [right, left] = primitives_of_scene(output).map(([, primitive]) => primitive)
+  assert.notEqual(left.attributes.COLOR_0, right.attributes.COLOR_0)
+  for (const key of ['POSITION', 'NORMAL']) assert.equal(left.attributes[key], right.attributes[key])
+  assert.equal(left.indices, right.indices)
+})
+
+test('the subdivision of one node can be asked for by name', async () => {
+  const { input, output } = await baked('unit_cube.glb', 'level.glb', '--refine', 'none', '--subdivide', 'cube=2')
+  const count = (gltf) => triangles_of(gltf, primitives_of_scene(gltf)[0][1]).length
+  assert.equal(count(output), 16 * count(input))
+})
+
+test('.glb, .gltf and .embedded.gltf hold the same colours and images', async () => {
+  const outputs = ['same.glb', 'same.gltf', 'same.embedded.gltf']
+  for (const scene of ['multi_buffer.gltf', 'textured_interior.glb']) {
+    const colors = []
+    for (const name of outputs) {
+      const { output } = await baked(scene, name, '--refine', 'none')
+      colors.push(primitives_of_scene(output).map(([, primitive]) => colors_of(output, primitive)))
+      const uris = [...output.json.buffers, ...(output.json.images ?? [])].map(({ uri }) => uri).filter(Boolean)
+      if (name === 'same.glb') assert.deepEqual(uris, [])
+      if (name === 'same.embedded.gltf') assert.ok(uris.every((uri) => uri.startsWith('data:')), 'everything in one file')
+    }
+    assert.deepEqual(colors[1], colors[0])
+    assert.deepEqual(colors[2], colors[0])
+  }
+})
+
+test('a .gltf baked to another folder takes its images along', async () => {
+  const away = path.join(folder, 'away')
+  fs.mkdirSync(away)
+  await baked('multi_buffer.gltf', 'away/baked.gltf')
+})
+
+test('integer colours are the float colours, rounded', async () => {
+  const [reference, u16, u8] = await Promise.all(['float', 'u16', 'u8'].map(async (type) => {
+    const { output } = await baked('occluder.glb', `${type}.glb`, '--refine', 'none', '--color-type', type)
+    const accessor = output.json.accessors[primitives_of_scene(output)[0][1].attributes.COLOR_0]
+    assert.deepEqual([accessor.componentType, accessor.normalized ?? false],
+      { float: [5126, false], u16: [5123, true], u8: [5121, true] }[type])
+    return primitives_of_scene(output).flatMap(([, primitive]) => colors_of(output, primitive).flat())
+  }))
+  for (const [values, largest] of [[u16, 65535], [u8, 255]]) {
+    values.forEach((value, k) => assert.ok(Math.abs(value - reference[k]) <= 0.5001 / largest))
+  }
+})

@@ -1,0 +1,58 @@
+// A page with three.js in headless Chromium, without a network: every request is answered from files.
+import { execFileSync } from 'node:child_process'
+import fs from 'node:fs'
+import path from 'node:path'
+import { fileURLToPath } from 'node:url'
+
+const here = path.dirname(fileURLToPath(import.meta.url))
+const packages = path.join(here, '..', 'node_modules')
+const types = { '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.glb': 'model/gltf-binary',
+  '.gltf': 'model/gltf+json', '.png': 'image/png' }
+const origin = 'http://viewer.test'
+
+function chromium_path() {
+  for (const name of ['chromium', 'chromium-browser', 'google-chrome']) {
+    try {
+      return execFileSync('which', [name], { encoding: 'utf8' }).trim()
+    } catch { /* the next one */ }
+  }
+  throw new Error('no Chromium: apt-get install chromium')
+}
+
+// A path of the page's origin -> a file: the packages, the viewer, or any file by its absolute path below /file.
+function file_of(url) {
+  const { pathname } = new URL(url)
+  const name = decodeURIComponent(pathname)
+  if (name.startsWith('/three/')) return path.join(packages, name)
+  if (name.startsWith('/file/')) return name.slice('/file'.length)
+  return path.join(here, name === '/' ? 'viewer.html' : name)
+}
+
+export const url_of = (file) => `${origin}/file${path.resolve(file).split('/').map(encodeURIComponent).join('/')}`
+
+async function answer(route) {
+  const file = file_of(route.request().url())
+  if (!fs.existsSync(file)) return route.fulfill({ status: 404 })
+  return route.fulfill({ body: fs.readFileSync(file), contentType: types[path.extname(file)] ?? 'application/octet-stream' })
+}
+
+// { page, close }: the viewer is loaded. Drawing is done by SwiftShader, so that no graphics card is needed.
+export async function open_viewer() {
+  const playwright = await import('playwright-core').catch(() => {
+    throw new Error('the browser driver is missing: run `npm ci` in the folder tests')
+  })
+  const browser = await playwright.chromium.launch({
+    executablePath: chromium_path(),
+    args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+  })
+  const page = await browser.newPage()
+  const problems = []
+  page.on('pageerror', (error) => problems.push(`${error}`))
+  page.on('console', (message) => { if (message.type() === 'error') problems.push(message.text()) })
+  await page.route('**/*', answer)
+  await page.goto(`${origin}/`)
+  await page.waitForFunction(() => window.viewer !== undefined, null, { timeout: 60_000 }).catch((reason) => {
+    throw new Error(`the viewer did not start: ${[...problems, reason].join('\n')}`)
+  })
+  return { page, close: () => browser.close() }
+}
