@@ -1,1 +1,79 @@
-int main() { return 0; }
+// START HERE, the command line: parse -> bake -> report. The only code that prints and exits.
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "plugin/gltf_radiosity.h"
+#include "tools/command_line.h"
+#include "tools/exit_code.h"
+#include "tools/interrupt.h"
+#include "tools/messages.h"
+#include "tools/progress_bar.h"
+#include "tools/report_file.h"
+
+namespace {
+
+using namespace gltf_radiosity;
+using namespace gltf_radiosity::tools;
+
+void print(std::FILE* stream, std::string_view text) { std::fwrite(text.data(), 1, text.size(), stream); }
+
+int end_without_bake(const Ending& ending) {
+  if (ending.exit_code != kExitDone) {
+    print(stderr, error_line(ending.text));
+    return ending.exit_code;
+  }
+  print(stdout, ending.text);
+  return std::fflush(stdout) == 0 ? kExitDone : kExitCannotWrite;
+}
+
+/// Writes the report if one was asked for; answers `exit_code`, or that the report could not be written.
+int report_to_programs(const CommandLine& line, std::string_view json, int exit_code) {
+  if (line.json.empty()) return exit_code;
+  const std::optional<std::string> failure = write_report(line.json, json);
+  if (!failure) return exit_code;
+  print(stderr, error_line(*failure));
+  return exit_code == kExitDone ? kExitCannotWrite : exit_code;
+}
+
+int bake_as_asked(const CommandLine& line) {
+  // Bake, with a display that is gone before anything else is printed
+  const auto start = std::chrono::steady_clock::now();
+  ProgressBar progress(resolve(line.progress), standard_error());
+  Callbacks callbacks;
+  callbacks.progress = [&progress](std::string_view phase, double done) { progress.update(phase, done); };
+  callbacks.cancelled = [] { return interrupted_by() != 0; };
+  const Result<Report> result = bake_file(line.input, line.output, line.options, callbacks);
+
+  // What went wrong
+  if (!result) {
+    progress.abandon();
+    print(stderr, error_line(result.error().text()));
+    return report_to_programs(line, to_json(result.error()), exit_code_of(result.error().code, interrupted_by()));
+  }
+
+  // What was done
+  progress.finish();
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  for (const Warning& warning : result->warnings) print(stderr, warning_line(warning));
+  const int exit_code = report_to_programs(line, to_json(*result), kExitDone);
+  if (line.progress != ProgressStyle::kNone) print(stderr, summary_line(line.output, *result, elapsed.count()));
+  return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  const auto parsed = parse_command_line(std::span<const char* const>(argv, static_cast<std::size_t>(argc)));
+  if (const Ending* const ending = std::get_if<Ending>(&parsed)) return end_without_bake(*ending);
+  catch_interrupts();
+  return bake_as_asked(std::get<CommandLine>(parsed));
+} catch (const std::exception& bug) {
+  print(stderr, error_line(bug.what()));
+  return kExitInternal;
+}

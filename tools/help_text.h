@@ -1,0 +1,38 @@
+// What --help looks like: columns, line breaks, and the text around the options.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gltf_radiosity::tools {
+
+inline constexpr std::string_view kHelpDescription =
+    "Bakes the diffuse light of a glTF 2.0 scene into its vertex colours (COLOR_0), so that every engine\n"
+    "shows it lit: no lights, no lightmap and no second UV set at run time.";
+
+inline constexpr std::string_view kHelpFooter =
+    "Examples:\n"
+    "  gltf-radiosity room.glb baked.glb\n"
+    "      The lamps and lights of the file, everything else automatic\n"
+    "  gltf-radiosity house.gltf baked.glb --sky 2000,2500,3000 --sun 40,120,80000 --quality high\n"
+    "      A clear day: blue sky, and the sun 40 degrees high between +x and -z\n"
+    "  gltf-radiosity hall.glb baked.glb --patch-size 0.25 --subdivide Floor=2 --exposure 0.5 --json -\n"
+    "      Edges of at most 25 cm, the node Floor cut twice, a fixed exposure, the report on stdout\n"
+    "\n"
+    "Exit codes: 0 done; 1 bad input; 2 wrong usage; 3 cannot write; 4 limit reached; 70 a bug of ours;\n"
+    "130 and 143 interrupted. The output appears whole or not at all.";
+
+/// Two columns, 100 characters wide: names and types, then the description ending in the default.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  HelpFormatter();
+
+  std::string make_usage(const CLI::App* app, std::string name) const override;
+  std::string make_group(std::string title, bool is_positional, std::vector<const CLI::Option*> options) const override;
+  std::string make_option_opts(const CLI::Option* option) const override;
+  std::string make_option_desc(const CLI::Option* option) const override;
+};
+
+}  // namespace gltf_radiosity::tools

@@ -1,0 +1,12 @@
+// Ctrl-C and SIGTERM ask the bake to stop; a second one kills the process as usual.
+#pragma once
+
+namespace gltf_radiosity::tools {
+
+/// Catches the next SIGINT and the next SIGTERM of the process. A signal that was ignored before (nohup) stays ignored.
+void catch_interrupts();
+
+/// The signal that asked to stop, or 0. May be called from any thread.
+int interrupted_by();
+
+}  // namespace gltf_radiosity::tools

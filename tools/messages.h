@@ -1,0 +1,23 @@
+// The lines that people read on stderr. Each is one line, whatever the names in the file hold.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "tools/command_line.h"
+
+namespace gltf_radiosity::tools {
+
+/// `text` on one line: control characters (line breaks, terminal commands) become spaces.
+std::string one_line(std::string_view text);
+
+/// gltf-radiosity: error: meshes[3].primitives[0]: ...
+std::string error_line(std::string_view text);
+
+/// gltf-radiosity: warning: nodes[3]: ... [code]
+std::string warning_line(const Warning& warning);
+
+/// gltf-radiosity: baked.glb: 12345 triangles, 6789 vertices, 1.23 s, exposure 1 m2/cd
+std::string summary_line(const std::string& output, const Report& report, double seconds);
+
+}  // namespace gltf_radiosity::tools

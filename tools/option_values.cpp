@@ -1,0 +1,78 @@
+#include "tools/option_values.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <system_error>
+#include <vector>
+
+namespace gltf_radiosity::tools {
+namespace {
+
+std::string describe(const Range& range) {
+  const bool unbounded = range.most == std::numeric_limits<double>::max();
+  if (unbounded && range.open) return fmt::format("above {}", range.least);
+  if (unbounded) return fmt::format("not below {}", range.least);
+  if (range.open) return fmt::format("between {} and {}, without these two", range.least, range.most);
+  return fmt::format("between {} and {}", range.least, range.most);
+}
+
+bool contains(const Range& range, double number) {
+  if (range.open) return number > range.least && number < range.most;
+  return number >= range.least && number <= range.most;
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const std::size_t end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+}  // namespace
+
+double parse_number(std::string_view text, const Range& range) {
+  double number = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, failure] = std::from_chars(text.data(), end, number);
+  if (failure != std::errc{} || stop != end || !std::isfinite(number)) {
+    throw BadValue(fmt::format("'{}' is not a number", text));
+  }
+  if (!contains(range, number)) throw BadValue(fmt::format("{} is not {}", text, describe(range)));
+  return number;
+}
+
+int parse_integer(std::string_view text, int least, int most) {
+  int number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, failure] = std::from_chars(text.data(), end, number);
+  const bool readable = stop == end && !text.empty();
+  if (readable && (failure == std::errc::result_out_of_range || number < least || number > most)) {
+    throw BadValue(fmt::format("{} is not between {} and {}", text, least, most));
+  }
+  if (failure != std::errc{} || !readable) throw BadValue(fmt::format("'{}' is not a whole number", text));
+  return number;
+}
+
+std::array<double, 3> parse_triple(std::string_view text, const std::array<Range, 3>& ranges) {
+  const std::vector<std::string_view> parts = split(text, ',');
+  if (parts.size() != 3) throw BadValue(fmt::format("'{}' is not three numbers separated by commas", text));
+  return {parse_number(parts[0], ranges[0]), parse_number(parts[1], ranges[1]), parse_number(parts[2], ranges[2])};
+}
+
+std::pair<std::string, int> parse_subdivide(std::string_view text) {
+  const std::size_t equals = text.rfind('=');
+  if (equals == std::string_view::npos || equals == 0) throw BadValue(fmt::format("'{}' is not NAME=LEVEL", text));
+  return {std::string(text.substr(0, equals)), parse_integer(text.substr(equals + 1), 0, 8)};
+}
+
+Sun parse_sun(std::string_view text) {
+  const auto [elevation, azimuth, lux] = parse_triple(text, {Range{0.0, 90.0}, Range{-360.0, 360.0}, Range{}});
+  return {elevation, azimuth, lux};
+}
+
+}  // namespace gltf_radiosity::tools
