@@ -14,8 +14,8 @@ namespace {
 
 /// No file this project can bake comes near it, and nothing below it overflows 64 bits when multiplied by a stride.
 constexpr std::uint64_t kMaxCount = std::uint64_t{1} << 40;
-/// Accessors without data cost nothing in the file but memory here: 2^27 elements are enough.
-constexpr std::uint64_t kMaxEmptyCount = std::uint64_t{1} << 27;
+/// Accessors without data cost nothing in the file but memory here: 2^24 elements are enough.
+constexpr std::uint64_t kMaxEmptyCount = std::uint64_t{1} << 24;
 /// TEXCOORD_n beyond this is a mistake.
 constexpr std::uint64_t kMaxTexcoord = 63;
 
@@ -352,6 +352,7 @@ class Checker {
   void check_meshes() {
     for (std::size_t i = 0; i < size("meshes") && !error_; ++i) {
       const Json& primitives = array_in(root_["meshes"][i], "primitives", place_of("meshes", i));
+      check_weights(root_["meshes"][i], place_of("meshes", i));
       for (std::size_t j = 0; j < primitives.size() && !error_; ++j) {
         const std::string place = place_of_primitive(i, j);
         if (!primitives[j].is_object()) return fail(place, "is not an object");
@@ -447,6 +448,12 @@ class Checker {
     }
   }
 
+  void check_weights(const Json& owner, const std::string& place) {
+    for (const Json& weight : array_in(owner, "weights", place)) {
+      if (!weight.is_number() || !std::isfinite(weight.get<float>())) fail(place, "\"weights\" are not finite numbers");
+    }
+  }
+
   void check_indices(const Json& indices, const std::string& key, const char* array, const std::string& place) {
     for (const Json& value : indices) {
       const auto index = whole_number(value);
@@ -469,9 +476,7 @@ class Checker {
       numbers(node, "rotation", 4, place);
       numbers(node, "scale", 3, place);
       check_indices(array_in(node, "children", place), "children", "nodes", place);
-      for (const Json& weight : array_in(node, "weights", place)) {
-        if (!weight.is_number()) fail(place, "\"weights\" holds something that is not a number");
-      }
+      check_weights(node, place);
       if (error_) return;
       const Json* light = extension_of(node, "KHR_lights_punctual");
       if (light == nullptr) continue;

@@ -1,1 +1,379 @@
-// placeholder
+#include "plugin/import_scene.h"
+
+#include <fmt/format.h>
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "plugin/accessor_view.h"
+#include "plugin/check_document.h"
+#include "plugin/import_geometry.h"
+#include "plugin/import_lights.h"
+#include "plugin/import_nodes.h"
+
+namespace gltf_radiosity {
+namespace {
+
+using radiosity::Rgb;
+
+constexpr std::size_t kMaxCount = radiosity::kNothing - 1;
+
+bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// Turns normals as the inverse transpose does, also where there is no inverse: the cofactors, with the sign of the
+/// determinant.
+glm::dmat3 normal_transform(const glm::dmat3& m) {
+  const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+  return glm::determinant(m) < 0.0 ? -1.0 * cofactors : cofactors;
+}
+
+glm::vec3 unit_or_zero(const glm::dvec3& v) {
+  const double length = glm::length(v);
+  return length > 0.0 && std::isfinite(length) ? glm::vec3(v / length) : glm::vec3(0.0F);
+}
+
+/// Makes the scene, part by part. `run` reads as the recipe.
+class SceneImporter {
+ public:
+  SceneImporter(const Document& document, const tinygltf::Model& model, const Options& options,
+                std::vector<Warning>& warnings)
+      : document_(document), model_(model), options_(options), warnings_(warnings), textures_(document) {}
+
+  Result<ImportedScene> run() {
+    auto placed = place_nodes(document_, model_, options_.subdivide, warnings_);
+    if (!placed) return placed.error();
+    for (const std::uint32_t node : placed->visible) {
+      if (auto done = import_node(*placed, node); !done) return done.error();
+    }
+    if (auto done = check_that_there_is_work(); !done) return done.error();
+    finish_detail();
+    count_emissive_triangles();
+    if (auto done = import_environment(); !done) return done.error();
+    warn();
+    return std::move(result_);
+  }
+
+ private:
+  // Nodes.
+
+  Result<Done> import_node(const PlacedNodes& placed, std::uint32_t node) {
+    const Json& json = document_.json["nodes"][node];
+    if (extension_of(json, "EXT_mesh_gpu_instancing") != nullptr) {
+      return bad_input(place_of("nodes", node), "EXT_mesh_gpu_instancing is not supported yet");
+    }
+    if (const Json* light = extension_of(json, "KHR_lights_punctual"))
+      import_punctual_light(*light, placed.world_from_node[node]);
+    const int mesh = model_.nodes[node].mesh;
+    if (mesh < 0) return Done{};
+    const std::size_t primitive_count = model_.meshes[static_cast<std::size_t>(mesh)].primitives.size();
+    for (std::size_t primitive = 0; primitive < primitive_count; ++primitive) {
+      if (!has_triangles(model_, static_cast<std::size_t>(mesh), primitive)) {
+        ++skipped_primitives_;
+        continue;
+      }
+      if (auto done = import_instance(placed, node, primitive); !done) return done.error();
+    }
+    return Done{};
+  }
+
+  Result<Done> import_instance(const PlacedNodes& placed, std::uint32_t node, std::size_t primitive) {
+    // What it is made of.
+    const auto mesh = static_cast<std::size_t>(model_.nodes[node].mesh);
+    const Result<std::uint32_t> material = material_index(model_.meshes[mesh].primitives[primitive].material);
+    if (!material) return material.error();
+    const Result<const PrimitiveGeometry*> geometry = geometry_of(node, mesh, primitive, *material);
+    if (!geometry) return geometry.error();
+    const PrimitiveGeometry& source = **geometry;
+    if (source.triangles.empty()) return Done{};
+    radiosity::Scene& scene = result_.scene;
+    if (scene.positions.size() + source.positions.size() > kMaxCount ||
+        scene.triangles.size() + source.triangles.size() > kMaxCount) {
+      return Error{ErrorCode::kLimit, place_of("nodes", node), "the scene has more than 2^32 vertices or triangles"};
+    }
+
+    // Where it comes from.
+    PrimitiveInstance instance;
+    instance.node = node;
+    instance.mesh = static_cast<std::uint32_t>(mesh);
+    instance.primitive = static_cast<std::uint32_t>(primitive);
+    instance.material = *material;
+    instance.first_vertex = static_cast<std::uint32_t>(scene.positions.size());
+    instance.vertex_count = static_cast<std::uint32_t>(source.positions.size());
+    instance.first_triangle = static_cast<std::uint32_t>(scene.triangles.size());
+    instance.triangle_count = static_cast<std::uint32_t>(source.triangles.size());
+    instance.receives = !result_.materials[*material].unlit;
+    instance.source_vertex = source.source_vertex;
+
+    // Where it stands.
+    const std::vector<glm::dmat4> joints = world_from_bind(placed, node);
+    if (joints.empty() || source.weights.empty()) {
+      instance.mirrored = glm::determinant(glm::dmat3(placed.world_from_node[node])) < 0.0;
+      place_vertices(source, {&placed.world_from_node[node], 1});
+    } else {
+      instance.mirrored = glm::determinant(glm::dmat3(joints[0])) < 0.0;
+      place_vertices(source, skin_transforms(source, joints));
+      moves_ = true;
+    }
+    const auto first = scene.positions.begin() + instance.first_vertex;
+    if (!std::all_of(first, scene.positions.end(), is_finite)) {
+      return bad_input(place_of("nodes", node), "its transform moves vertices to infinity");
+    }
+
+    add_triangles(source, instance, placed.level[node]);
+    add_texcoords(source);
+    bad_normals_ += source.recomputed_normals;
+    result_.instances.push_back(std::move(instance));
+    return Done{};
+  }
+
+  /// The matrices of a node's skin: mesh space in bind pose to world. Empty without a skin.
+  std::vector<glm::dmat4> world_from_bind(const PlacedNodes& placed, std::uint32_t node) const {
+    const int index = model_.nodes[node].skin;
+    if (index < 0) return {};
+    const tinygltf::Skin& skin = model_.skins[static_cast<std::size_t>(index)];
+    std::vector<float> inverse_bind;
+    if (skin.inverseBindMatrices >= 0) {
+      inverse_bind = as_floats(read_accessor(document_, static_cast<std::size_t>(skin.inverseBindMatrices)));
+    }
+    std::vector<glm::dmat4> matrices;
+    for (std::size_t i = 0; i < skin.joints.size(); ++i) {
+      const glm::dmat4& world = placed.world_from_node[static_cast<std::size_t>(skin.joints[i])];
+      matrices.push_back(inverse_bind.empty() ? world
+                                              : world * glm::dmat4(glm::make_mat4(inverse_bind.data() + i * 16)));
+    }
+    return matrices;
+  }
+
+  // Geometry.
+
+  /// Primitives that several nodes use are read once, unless each morphs them its own way.
+  Result<const PrimitiveGeometry*> geometry_of(std::uint32_t node, std::size_t mesh, std::size_t primitive,
+                                               std::uint32_t material) {
+    const std::vector<double>& own = model_.nodes[node].weights;
+    const std::vector<double>& weights = own.empty() ? model_.meshes[mesh].weights : own;
+    moves_ = moves_ || !model_.meshes[mesh].primitives[primitive].targets.empty();
+    const auto key = std::tuple(mesh, primitive, weights);
+    const auto known = geometries_.find(key);
+    if (known != geometries_.end()) return &known->second;
+
+    const ImportedMaterial& used = result_.materials[material];
+    std::set<int> texcoords;
+    for (const TextureSlot* slot : {&used.base_color, &used.emissive_texture, &used.metallic_roughness}) {
+      if (*slot) texcoords.insert(slot->texcoord);
+    }
+    auto geometry = read_primitive(document_, model_, mesh, primitive, texcoords, weights);
+    if (!geometry) return geometry.error();
+    return &geometries_.emplace(key, std::move(*geometry)).first->second;
+  }
+
+  /// Appends the vertices; one transform for all, or one for each.
+  void place_vertices(const PrimitiveGeometry& source, std::span<const glm::dmat4> transforms) {
+    radiosity::Scene& scene = result_.scene;
+    const std::size_t count = source.positions.size();
+    const bool shared = transforms.size() == 1;
+    glm::dmat3 turn = normal_transform(glm::dmat3(transforms[0]));
+    for (std::size_t v = 0; v < count; ++v) {
+      const glm::dmat4& transform = transforms[shared ? 0 : v];
+      if (!shared) turn = normal_transform(glm::dmat3(transform));
+      scene.positions.emplace_back(transform * glm::dvec4(source.positions[v], 1.0));
+      scene.normals.push_back(unit_or_zero(turn * glm::dvec3(source.normals[v])));
+    }
+    if (source.colors.empty()) {
+      result_.vertex_colors.insert(result_.vertex_colors.end(), count * 4, 1.0F);
+    } else {
+      const float* colors = &source.colors[0].x;
+      result_.vertex_colors.insert(result_.vertex_colors.end(), colors, colors + count * 4);
+    }
+  }
+
+  void add_triangles(const PrimitiveGeometry& source, const PrimitiveInstance& instance, std::int8_t level) {
+    radiosity::Scene& scene = result_.scene;
+    const std::uint32_t surface = surface_index(instance.material, !source.colors.empty());
+    for (const glm::uvec3& corners : source.triangles) {
+      const glm::uvec3 wound = instance.mirrored ? glm::uvec3(corners.x, corners.z, corners.y) : corners;
+      scene.triangles.push_back(wound + instance.first_vertex);
+    }
+    scene.surface_of_triangle.resize(scene.triangles.size(), surface);
+    result_.level_of_triangle.resize(scene.triangles.size(), level);
+  }
+
+  void add_texcoords(const PrimitiveGeometry& source) {
+    const std::size_t vertex_count = result_.scene.positions.size();
+    for (const auto& [set, uv] : source.texcoords) {
+      if (texcoords_.size() <= static_cast<std::size_t>(set)) texcoords_.resize(static_cast<std::size_t>(set) + 1);
+      std::vector<glm::vec2>& all = texcoords_[static_cast<std::size_t>(set)];
+      all.resize(vertex_count - uv.size());
+      all.insert(all.end(), uv.begin(), uv.end());
+    }
+  }
+
+  // Materials.
+
+  Result<std::uint32_t> material_index(int source) {
+    const auto known = material_of_source_.find(source);
+    if (known != material_of_source_.end()) return known->second;
+    const auto index = source < 0 ? std::nullopt : std::optional(static_cast<std::uint32_t>(source));
+    auto material = import_material(document_, model_, index, options_.metals, textures_, warnings_);
+    if (!material) return material.error();
+    result_.materials.push_back(std::move(*material));
+    const auto added = static_cast<std::uint32_t>(result_.materials.size() - 1);
+    material_of_source_[source] = added;
+    return added;
+  }
+
+  /// Primitives with COLOR_0 have surfaces of their own, so that those without stay constant.
+  std::uint32_t surface_index(std::uint32_t material_index, bool has_colors) {
+    const auto key = std::pair(material_index, has_colors);
+    const auto known = surface_of_material_.find(key);
+    if (known != surface_of_material_.end()) return known->second;
+
+    const ImportedMaterial& material = result_.materials[material_index];
+    radiosity::Surface surface;
+    surface.two_sided = material.double_sided;
+    surface.see_through = may_let_light_through(material, has_colors);
+    surface.reflectance = Rgb(0.0F);
+    if (!material.unlit) {
+      surface.reflectance = Rgb(material.base_color_factor) * material.diffuse_share(1.0F);
+      surface.emission = material.emissive;
+      surface.varies = has_colors || material.base_color || material.emissive_texture || material.metallic_roughness;
+    }
+    const auto index = static_cast<std::uint32_t>(result_.scene.surfaces.size());
+    result_.scene.surfaces.push_back(surface);
+    material_of_surface_.push_back(material_index);
+    surface_has_colors_.push_back(has_colors ? 1 : 0);
+    surface_of_material_[key] = index;
+    return index;
+  }
+
+  static bool may_let_light_through(const ImportedMaterial& material, bool has_colors) {
+    if (material.alpha_mode == AlphaMode::kOpaque) return false;
+    if (material.base_color || has_colors) return true;
+    const float opaque_from = material.alpha_mode == AlphaMode::kMask ? material.alpha_cutoff : 1.0F;
+    return material.base_color_factor.w < opaque_from;
+  }
+
+  // Light.
+
+  void import_punctual_light(const Json& reference, const glm::dmat4& world_from_node) {
+    if (!unit_factor_) unit_factor_ = light_unit_factor(document_, options_.light_units, warnings_);
+    const Json& lights = document_.json["extensions"]["KHR_lights_punctual"]["lights"];
+    const Json& light = lights[reference["light"].get<std::size_t>()];
+    result_.scene.lights.push_back(import_light(light, world_from_node, *unit_factor_));
+    ++result_.punctual_light_count;
+  }
+
+  Result<Done> import_environment() {
+    radiosity::Scene& scene = result_.scene;
+    if (options_.sky) {
+      for (int band = 0; band < 3; ++band) {
+        const double value = (*options_.sky)[static_cast<std::size_t>(band)];
+        if (!(value >= 0.0 && value < 1e30)) return Error{ErrorCode::kBadOption, "sky", "is negative or not finite"};
+        scene.sky[band] = static_cast<float>(value);
+      }
+    }
+    if (options_.sun) {
+      const Sun& sun = *options_.sun;
+      const bool fine = std::isfinite(sun.elevation_degrees) && std::isfinite(sun.azimuth_degrees) &&
+                        sun.illuminance_lux >= 0.0 && sun.illuminance_lux < 1e30;
+      if (!fine) return Error{ErrorCode::kBadOption, "sun", "is negative or not finite"};
+      scene.lights.push_back(import_sun(sun));
+    }
+    const bool has_lights = std::any_of(scene.lights.begin(), scene.lights.end(),
+                                        [](const radiosity::Light& light) { return light.intensity != Rgb(0.0F); });
+    if (has_lights || result_.emissive_triangle_count > 0 || options_.sky || options_.sun || !options_.default_sky)
+      return Done{};
+    scene.sky = Rgb(1.0F);
+    warnings_.push_back({"default-sky", "", "the scene has no light; a white sky of 1 cd/m2 was put around it"});
+    return Done{};
+  }
+
+  void count_emissive_triangles() {
+    const radiosity::Scene& scene = result_.scene;
+    for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+      const radiosity::Surface& surface = scene.surfaces[scene.surface_of_triangle[t]];
+      if (surface.emission == Rgb(0.0F)) continue;
+      const bool textured =
+          static_cast<bool>(result_.materials[material_of_surface_[scene.surface_of_triangle[t]]].emissive_texture);
+      if (!textured || radiosity::mean_emission(scene, t, {}) != Rgb(0.0F)) ++result_.emissive_triangle_count;
+    }
+  }
+
+  // The rest.
+
+  Result<Done> check_that_there_is_work() const {
+    if (result_.scene.triangles.empty()) return bad_input("", "nothing to bake: the scene has no triangles");
+    const bool any = std::any_of(result_.instances.begin(), result_.instances.end(),
+                                 [](const PrimitiveInstance& instance) { return instance.receives; });
+    if (!any) return bad_input("", "nothing to bake: every material of the scene is unlit");
+    return Done{};
+  }
+
+  void finish_detail() {
+    geometries_.clear();
+    for (std::vector<glm::vec2>& uv : texcoords_) {
+      if (!uv.empty()) uv.resize(result_.scene.positions.size());
+    }
+    auto detail = std::make_unique<SceneDetail>();
+    detail->triangles = result_.scene.triangles;
+    detail->surface_of_triangle = result_.scene.surface_of_triangle;
+    detail->vertex_colors = result_.vertex_colors;
+    detail->materials = result_.materials;
+    detail->material_of_surface = std::move(material_of_surface_);
+    material_of_surface_ = detail->material_of_surface;
+    detail->surface_has_colors = std::move(surface_has_colors_);
+    detail->texcoords = std::move(texcoords_);
+    result_.detail = std::move(detail);
+    result_.scene.detail = result_.detail.get();
+  }
+
+  void warn() {
+    if (bad_normals_ > 0) {
+      warnings_.push_back(
+          {"bad-normals", "",
+           fmt::format("{} normals were zero or not finite and were recomputed from the faces", bad_normals_)});
+    }
+    if (skipped_primitives_ > 0) {
+      warnings_.push_back(
+          {"points-and-lines", "",
+           fmt::format("{} primitives of points or lines take no part in the light", skipped_primitives_)});
+    }
+    if (moves_ || !array_of(document_.json, "animations").empty()) {
+      warnings_.push_back({"rest-pose", "", "what animations, skins or morph targets move is lit in its rest pose"});
+    }
+  }
+
+  const Document& document_;
+  const tinygltf::Model& model_;
+  const Options& options_;
+  std::vector<Warning>& warnings_;
+  TextureLibrary textures_;
+  ImportedScene result_;
+  std::map<std::tuple<std::size_t, std::size_t, std::vector<double>>, PrimitiveGeometry> geometries_;
+  std::map<int, std::uint32_t> material_of_source_;
+  std::map<std::pair<std::uint32_t, bool>, std::uint32_t> surface_of_material_;
+  std::vector<std::uint32_t> material_of_surface_;
+  std::vector<std::uint8_t> surface_has_colors_;
+  std::vector<std::vector<glm::vec2>> texcoords_;
+  std::optional<float> unit_factor_;
+  std::uint64_t bad_normals_ = 0, skipped_primitives_ = 0;
+  bool moves_ = false;
+};
+
+}  // namespace
+
+Result<ImportedScene> import_scene(const Document& document, const Options& options, std::vector<Warning>& warnings) {
+  const auto model = typed_view(document);
+  if (!model) return model.error();
+  return SceneImporter(document, **model, options, warnings).run();
+}
+
+}  // namespace gltf_radiosity

@@ -8,34 +8,38 @@
 #include "core/scene.h"
 #include "plugin/document.h"
 #include "plugin/import_materials.h"
+#include "plugin/scene_detail.h"
 
 namespace gltf_radiosity {
 
 /// One primitive of one node's mesh in the world. Ranges are half open.
 struct PrimitiveInstance {
   std::uint32_t node = 0, mesh = 0, primitive = 0;
-  std::uint32_t material = 0;       ///< index into ImportedScene::materials
+  std::uint32_t material = 0;                            ///< index into ImportedScene::materials
   std::uint32_t first_vertex = 0, vertex_count = 0;      ///< in Scene::positions
   std::uint32_t first_triangle = 0, triangle_count = 0;  ///< in Scene::triangles
-  bool receives = true;             ///< gets COLOR_0; otherwise it only blocks (KHR_materials_unlit)
-  bool mirrored = false;            ///< the node's world transform turns triangles over
-  /// Which vertex of the glTF primitive each scene vertex is, [vertex_count]; empty means the same, in order. Differs for a
-  /// primitive without normals, which glTF shades flat: a vertex between faces that crease is split.
+  bool receives = true;   ///< gets COLOR_0; otherwise it only blocks (KHR_materials_unlit)
+  bool mirrored = false;  ///< the node's world transform turns triangles over
+  /// Which vertex of the glTF primitive each scene vertex is, [vertex_count]; empty means the same, in order. Differs
+  /// for a primitive without normals, which glTF shades flat: a vertex between faces that crease is split.
   std::vector<std::uint32_t> source_vertex;
 };
 
 struct ImportedScene {
   radiosity::Scene scene;
-  std::vector<PrimitiveInstance> instances;        ///< ascending ranges that tile the scene's vertices and triangles
-  std::vector<ImportedMaterial> materials;         ///< one per glTF material in use, and the default one
-  std::unique_ptr<radiosity::SurfaceDetail> detail;  ///< scene.detail points here
-  std::vector<float> vertex_colors;                ///< the source's COLOR_0, linear RGBA, [vertex_count * 4]; ones where there is none
-  std::vector<std::int8_t> level_of_triangle;      ///< subdivision overrides, [triangle_count]
+  std::vector<PrimitiveInstance> instances;  ///< ascending ranges that tile the scene's vertices and triangles
+  std::vector<ImportedMaterial> materials;   ///< one per glTF material in use, and the default one
+  std::unique_ptr<SceneDetail> detail;       ///< scene.detail points here; looks into the vectors above and below
+  std::vector<float>
+      vertex_colors;  ///< the source's COLOR_0, linear RGBA, [vertex_count * 4]; ones where there is none
+  std::vector<std::int8_t> level_of_triangle;  ///< subdivision overrides, [triangle_count]
   std::uint64_t punctual_light_count = 0, emissive_triangle_count = 0;
 };
 
-/// Walks the default scene (or every root when there is none): triangles, strips and fans of all nodes, their materials, lights,
-/// sky and sun, in world space. Adds warnings to `warnings`. "nothing to bake" is an error.
+/// Walks the default scene (the first if none is the default, every root if there are no scenes): triangles, strips and
+/// fans of all nodes in world space, their materials, lights, sky and sun. What moves is taken in its rest pose. Adds
+/// warnings to `warnings`. "nothing to bake" is an error; so are a scene of more than 2^32 triangles or vertices
+/// (ErrorCode::kLimit) and options that do not suit the file (kBadOption).
 Result<ImportedScene> import_scene(const Document& document, const Options& options, std::vector<Warning>& warnings);
 
 }  // namespace gltf_radiosity

@@ -14,9 +14,9 @@
 namespace gltf_radiosity {
 namespace {
 
-constexpr float kMaxCells = 400.0F;        ///< texels of one level looked at for a mean: its cost is bounded
-constexpr float kMaxTexels = 128.0F;       ///< of these, about as many lie in the triangle
-constexpr std::size_t kMaxStorage = 1610;  ///< cells and a margin, for the narrowest grid of kMaxCells
+constexpr float kMaxCells = 256.0F;        ///< texels of one level looked at for a mean: its cost is bounded
+constexpr float kMaxTexels = 64.0F;        ///< of these, about as many lie in the triangle
+constexpr std::size_t kMaxStorage = 1040;  ///< cells and a margin, for the narrowest grid of kMaxCells
 constexpr float kFarAway = 1.0e6F;         ///< texture coordinates beyond it have no fraction worth speaking of
 
 /// sRGB 8 bit -> linear.

@@ -1,1 +1,78 @@
-// placeholder
+#include "plugin/scene_detail.h"
+
+#include "plugin/import_scene.h"
+
+namespace gltf_radiosity {
+
+using radiosity::Barycentrics;
+using radiosity::Rgb;
+using radiosity::SubTriangle;
+
+const ImportedMaterial& SceneDetail::material_of(std::uint32_t triangle) const {
+  return materials[material_of_surface[surface_of_triangle[triangle]]];
+}
+
+glm::vec2 SceneDetail::texcoord(int set, std::uint32_t triangle, Barycentrics at) const {
+  const auto index = static_cast<std::size_t>(set);
+  if (index >= texcoords.size() || texcoords[index].empty()) return glm::vec2(0.0F);
+  const std::vector<glm::vec2>& uv = texcoords[index];
+  const glm::uvec3& corners = triangles[triangle];
+  return uv[corners.x] * (1.0F - at.x - at.y) + uv[corners.y] * at.x + uv[corners.z] * at.y;
+}
+
+glm::vec4 SceneDetail::color(std::uint32_t triangle, Barycentrics at) const {
+  if (surface_has_colors[surface_of_triangle[triangle]] == 0) return glm::vec4(1.0F);
+  const float weight[3] = {1.0F - at.x - at.y, at.x, at.y};
+  glm::vec4 sum(0.0F);
+  for (int corner = 0; corner < 3; ++corner) {
+    const float* rgba = vertex_colors.data() + std::size_t{triangles[triangle][corner]} * 4;
+    sum += glm::vec4(rgba[0], rgba[1], rgba[2], rgba[3]) * weight[corner];
+  }
+  return sum;
+}
+
+glm::vec4 SceneDetail::texture_mean(const TextureSlot& slot, std::uint32_t triangle, const SubTriangle& part) const {
+  if (!slot) return glm::vec4(1.0F);
+  return slot.mean({texcoord(slot.texcoord, triangle, part.corner[0]),
+                    texcoord(slot.texcoord, triangle, part.corner[1]),
+                    texcoord(slot.texcoord, triangle, part.corner[2])});
+}
+
+Rgb SceneDetail::reflectance(std::uint32_t triangle, const SubTriangle& part) const {
+  const ImportedMaterial& material = material_of(triangle);
+  if (material.unlit) return Rgb(0.0F);
+  // Linear in between, so the mean is the value at the middle.
+  const Barycentrics middle = (part.corner[0] + part.corner[1] + part.corner[2]) / 3.0F;
+  const glm::vec4 mean =
+      material.base_color_factor * texture_mean(material.base_color, triangle, part) * color(triangle, middle);
+  return Rgb(mean) * material.diffuse_share(texture_mean(material.metallic_roughness, triangle, part).z);
+}
+
+Rgb SceneDetail::emission(std::uint32_t triangle, const SubTriangle& part) const {
+  const ImportedMaterial& material = material_of(triangle);
+  if (material.unlit || !material.emits()) return Rgb(0.0F);
+  return material.emissive * Rgb(texture_mean(material.emissive_texture, triangle, part));
+}
+
+float SceneDetail::opacity(std::uint32_t triangle, Barycentrics at) const {
+  const ImportedMaterial& material = material_of(triangle);
+  if (material.alpha_mode == AlphaMode::kOpaque) return 1.0F;
+  float alpha = material.base_color_factor.w * color(triangle, at).w;
+  if (material.base_color) alpha *= material.base_color.at(texcoord(material.base_color.texcoord, triangle, at)).w;
+  if (material.alpha_mode == AlphaMode::kMask) return alpha < material.alpha_cutoff ? 0.0F : 1.0F;
+  return alpha;
+}
+
+glm::vec3 mean_base_color_texture(const ImportedScene& scene, std::uint32_t instance, std::uint32_t triangle,
+                                  const SubTriangle& part) {
+  const ImportedMaterial& material = scene.materials[scene.instances[instance].material];
+  return glm::vec3(scene.detail->texture_mean(material.base_color, triangle, part));
+}
+
+float mean_metallic(const ImportedScene& scene, std::uint32_t instance, std::uint32_t triangle,
+                    const SubTriangle& part) {
+  const ImportedMaterial& material = scene.materials[scene.instances[instance].material];
+  return material.metallic * scene.detail->texture_mean(material.metallic_roughness, triangle, part).z;
+}
+
+}  // namespace gltf_radiosity

@@ -41,7 +41,8 @@ void copy_array(const Json& from, const char* key, Json& to, Copy copy) {
 Json copy_texture_info(const Json& info) { return copy_members(info, {"index", "texCoord"}); }
 
 Json copy_node(const Json& node) {
-  Json copy = copy_members(node, {"name", "mesh", "skin", "children", "matrix", "translation", "rotation", "scale"});
+  Json copy =
+      copy_members(node, {"name", "mesh", "skin", "children", "weights", "matrix", "translation", "rotation", "scale"});
   if (const Json* light = extension_of(node, "KHR_lights_punctual")) {
     copy["extensions"]["KHR_lights_punctual"]["light"] = (*light)["light"];
   }
@@ -49,11 +50,11 @@ Json copy_node(const Json& node) {
 }
 
 Json copy_mesh(const Json& mesh) {
-  Json copy = copy_members(mesh, {"name"});
+  Json copy = copy_members(mesh, {"name", "weights"});
   copy["primitives"] = Json::array();
   for (const Json& primitive : array_of(mesh, "primitives")) {
-    Json& parts =
-        copy["primitives"].emplace_back(copy_members(primitive, {"attributes", "indices", "material", "mode"}));
+    Json& parts = copy["primitives"].emplace_back(
+        copy_members(primitive, {"attributes", "indices", "material", "mode", "targets"}));
     // tinygltf drops primitives without attributes, and every index after them would be off by one.
     if (parts["attributes"].empty()) parts["attributes"]["_NONE"] = -1;
   }
@@ -90,6 +91,9 @@ Json sanitised(const Json& root) {
   copy_array(root, "materials", copy, copy_material);
   copy_array(root, "textures", copy, [](const Json& texture) { return copy_members(texture, {"source", "sampler"}); });
   copy_array(root, "samplers", copy, [](const Json& sampler) { return copy_members(sampler, {"wrapS", "wrapT"}); });
+  copy_array(root, "skins", copy, [](const Json& skin) {
+    return copy_members(skin, {"joints", "inverseBindMatrices"});
+  });
   copy_array(root, "accessors", copy, [](const Json& accessor) {
     return copy_members(accessor, {"bufferView", "byteOffset", "componentType", "normalized", "count", "type"});
   });
