@@ -10,6 +10,8 @@ import { primitives_of_scene, read_gltf } from './gltf_file.mjs'
 
 const folder = temporary_folder()
 const target = (name) => path.join(folder, name)
+const reds_of = (gltf) =>
+  primitives_of_scene(gltf).flatMap(([, primitive]) => colors_of(gltf, primitive).map(([red]) => red))
 const mean = (values) => values.reduce((sum, value) => sum + value, 0) / values.length
 
 for (const scene of ['cornell_box', 'textured_interior', 'lights_all_kinds']) {
@@ -44,10 +46,11 @@ test('--no-default-sky bakes black', () => {
 })
 
 test('--sky and --sun light a scene, and nothing is warned of', () => {
-  const report = bake(test_asset('sky_court.glb'), target('sun.glb'), '--quality', 'draft', '--sky', '0.1,0.2,0.4', '--sun', '60,30,2')
+  const light = ['--sky', '0.1,0.2,0.4', '--sun', '60,30,2']
+  const report = bake(test_asset('sky_court.glb'), target('sun.glb'), '--quality', 'draft', ...light)
   assert.deepEqual(report.warnings.map(({ code }) => code), [])
   const gltf = read_gltf(target('sun.glb'))
-  assert.ok(mean(primitives_of_scene(gltf).flatMap(([, primitive]) => colors_of(gltf, primitive).map(([red]) => red))) > 0.1)
+  assert.ok(mean(reds_of(gltf)) > 0.1)
 })
 
 test('--exposure scales the colours and is written into the file', () => {
@@ -57,7 +60,7 @@ test('--exposure scales the colours and is written into the file', () => {
     assert.equal(report.exposure, exposure)
     const gltf = read_gltf(output)
     assert.equal(gltf.json.asset.extras.radiosity.exposure, exposure)
-    return mean(primitives_of_scene(gltf).flatMap(([, primitive]) => colors_of(gltf, primitive).map(([red]) => red)))
+    return mean(reds_of(gltf))
   })
   assert.ok(Math.abs(colors[1] / colors[0] - 2) < 1e-3, `means ${colors}`)
 })
@@ -81,7 +84,8 @@ test('the report names counts, phases and the exposure, and goes to a file or to
 })
 
 test('progress is plain lines where there is no terminal, and stdout stays empty', () => {
-  const { code, stdout, stderr, lines } = run(test_asset('cornell_box.glb'), target('progress.glb'), '--quality', 'draft')
+  const input = test_asset('cornell_box.glb')
+  const { code, stdout, stderr, lines } = run(input, target('progress.glb'), '--quality', 'draft')
   assert.equal(code, 0)
   assert.equal(stdout, '')
   assert.ok(lines.length > 2, stderr)
@@ -91,8 +95,10 @@ test('progress is plain lines where there is no terminal, and stdout stays empty
 test('usage that is wrong ends with 2 and one line', () => {
   const cube = test_asset('unit_cube.glb')
   const wrong = [
-    [], [cube], [cube, target('x.glb'), '--no-such-option'], [cube, target('x.glb'), '--refine', 'maybe'],
-    [cube, target('x.glb'), '--sky', '1,1'], [cube, target('x.glb'), '--hemicube', '3'], [cube, target('x.glb'), '--threads', 'nan'],
+    [],
+    [cube],
+    ...[['--no-such-option'], ['--refine', 'maybe'], ['--sky', '1,1'], ['--hemicube', '3'], ['--threads', 'nan']]
+      .map((options) => [cube, target('x.glb'), ...options]),
   ]
   for (const args of wrong) {
     const { code, stdout, lines } = run(...args)
@@ -124,7 +130,8 @@ test('an interrupted bake stops soon, says so by its exit code, and leaves the o
   const output = target('old.glb')
   fs.writeFileSync(output, 'old')
   const options = ['--patch-size', '0.004', '--hemicube', '128']
-  const child = spawn(program(), [test_asset('cornell_box.glb'), output, ...options], { stdio: ['ignore', 'ignore', 'pipe'] })
+  const stdio = ['ignore', 'ignore', 'pipe']
+  const child = spawn(program(), [test_asset('cornell_box.glb'), output, ...options], { stdio })
   const ended = new Promise((resolve) => child.on('exit', (code, signal) => resolve({ code, signal })))
   await new Promise((resolve) => child.stderr.once('data', resolve))
   const start = Date.now()

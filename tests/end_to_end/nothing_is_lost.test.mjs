@@ -63,7 +63,8 @@ for (const refine of ['none', 'uniform']) {
 }
 
 test('skins, weights and morph targets follow the subdivision', async () => {
-  const { input, output } = await baked('skinned_and_morphed.glb', 'moving.glb', '--refine', 'uniform', '--patch-size', 0.06)
+  const fine = ['--refine', 'uniform', '--patch-size', 0.06]
+  const { input, output } = await baked('skinned_and_morphed.glb', 'moving.glb', ...fine)
   for (const [k, [, primitive]] of primitives_of_scene(output).entries()) {
     const count = (index) => output.json.accessors[index].count
     const vertices = count(primitive.attributes.POSITION)
@@ -109,7 +110,8 @@ test('.glb, .gltf and .embedded.gltf hold the same colours and images', async ()
       colors.push(primitives_of_scene(output).map(([, primitive]) => colors_of(output, primitive)))
       const uris = [...output.json.buffers, ...(output.json.images ?? [])].map(({ uri }) => uri).filter(Boolean)
       if (name === 'same.glb') assert.deepEqual(uris, [])
-      if (name === 'same.embedded.gltf') assert.ok(uris.every((uri) => uri.startsWith('data:')), 'everything in one file')
+      const all_inside = uris.every((uri) => uri.startsWith('data:'))
+      assert.ok(name !== 'same.embedded.gltf' || all_inside, 'everything in one file')
     }
     assert.deepEqual(colors[1], colors[0])
     assert.deepEqual(colors[2], colors[0])

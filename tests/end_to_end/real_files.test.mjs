@@ -1,6 +1,7 @@
 // Files from elsewhere: each bakes without a new validator error, or is refused with one sentence. None crashes.
 //
-// They are not part of the project. GLTF_RADIOSITY_ASSETS names their folder; CTest reports the test as skipped without it.
+// They are not part of the project. GLTF_RADIOSITY_ASSETS names their folder; CTest reports the test as skipped
+// without it.
 import assert from 'node:assert/strict'
 import fs from 'node:fs'
 import path from 'node:path'
@@ -21,10 +22,11 @@ const is_small = (file) => !sanitized() || fs.statSync(file).size < 100_000
 const to_bake = ['interior', 'objects', 'features'].flatMap((name) => files_in(name)).filter(is_small)
 const malformed = [...files_in('malformed'), ...files_in('malformed', 'as_glb')]
 // The cheapest bake that goes through every phase: what is asked here is not how good the light is.
-const options = ['--refine', 'none', '--quality', 'draft', '--hemicube', '8', '--max-patches', '500', '--residual', '0.05']
+const mesh = ['--refine', 'none', '--max-patches', '500']
+const options = [...mesh, '--quality', 'draft', '--hemicube', '8', '--residual', '0.05']
 
 if (to_bake.length + malformed.length === 0) {
-  console.log(`SKIPPED: no assets in '${assets}' (0 files): GLTF_RADIOSITY_ASSETS names the folder with interior, objects, features and malformed`)
+  console.log(`SKIPPED: no assets in '${assets}' (0 files); GLTF_RADIOSITY_ASSETS names the folder that holds them`)
 }
 
 const relative = (file) => path.relative(assets, file)

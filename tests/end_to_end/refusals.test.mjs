@@ -50,13 +50,17 @@ test('a folder', () => assert_refused(folder, /\S/))
 
 test('an empty file', () => assert_refused(write('empty.glb', ''), /\S/))
 
-test('a file that is not glTF', () => assert_refused(write('picture.glb', Buffer.from('\x89PNG\r\n\x1a\n....', 'latin1')), /\S/))
+test('a file that is not glTF', () => {
+  assert_refused(write('picture.glb', Buffer.from('\x89PNG\r\n\x1a\n....', 'latin1')), /\S/)
+})
 
 test('JSON that is not glTF', () => assert_refused(write('list.gltf', '[1, 2, 3]'), /\S/))
 
 test('JSON that breaks off', () => assert_refused(broken_cube('json.glb', () => '{"asset":{"version":"2.0"},'), /\S/))
 
-test('glTF 1.0', () => assert_refused(broken_cube('one.glb', (json) => { json.asset.version = '1.0' }), /asset|version/))
+test('glTF 1.0', () => {
+  assert_refused(broken_cube('one.glb', (json) => { json.asset.version = '1.0' }), /asset|version/)
+})
 
 for (const share of [0.01, 0.3, 0.6, 0.9, 0.99]) {
   test(`a GLB cut off after ${share * 100} % of its bytes`, () => {
@@ -74,7 +78,8 @@ test('a buffer that is shorter than it says', () => {
 })
 
 test('a buffer outside the folder of the file', () => {
-  assert_refused(broken_yard('outside.gltf', (json) => { json.buffers[1].uri = '../../../../etc/passwd' }), /buffers\[1\]/)
+  const uri = '../../../../etc/passwd'
+  assert_refused(broken_yard('outside.gltf', (json) => { json.buffers[1].uri = uri }), /buffers\[1\]/)
 })
 
 test('an image that is not there', () => {
@@ -91,7 +96,8 @@ test('an accessor longer than its buffer view', () => {
 })
 
 test('an accessor with more elements than 64 bits can count', () => {
-  const file = broken_cube('huge.glb', (json) => JSON.stringify(json).replace('"count":24', '"count":9223372036854775808'))
+  const huge = '"count":9223372036854775808'
+  const file = broken_cube('huge.glb', (json) => JSON.stringify(json).replace('"count":24', huge))
   assert_refused(file, /accessors\[0\]/)
 })
 
@@ -144,7 +150,8 @@ test('a required extension that is not supported', () => {
 
 test('extras nested a hundred thousand deep', () => {
   const deep = '{"a":'.repeat(100_000) + '1' + '}'.repeat(100_000)
-  const file = broken_cube('deep.glb', (json) => JSON.stringify(json).replace('"asset":{', `"asset":{"extras":${deep},`))
+  const asset = `"asset":{"extras":${deep},`
+  const file = broken_cube('deep.glb', (json) => JSON.stringify(json).replace('"asset":{', asset))
   assert_refused(file, /\S/)
 })
 

@@ -11,12 +11,14 @@ const severity_error = 0
 // Errors of a file, as { code, message, pointer }.
 export async function errors_of(file) {
   const folder = path.dirname(file)
-  const report = await validator.validateBytes(new Uint8Array(fs.readFileSync(file)), {
+  const bytes_of = (path_of_file) => new Uint8Array(fs.readFileSync(path_of_file))
+  const unreadable = (reason) => [{ severity: severity_error, code: 'UNREADABLE', message: `${reason}` }]
+  const messages = await validator.validateBytes(bytes_of(file), {
     uri: path.basename(file),
     maxIssues: 0,
-    externalResourceFunction: async (uri) => new Uint8Array(fs.readFileSync(path.join(folder, decodeURIComponent(uri)))),
-  }).catch((reason) => ({ issues: { messages: [{ severity: severity_error, code: 'UNREADABLE', message: `${reason}` }] } }))
-  return report.issues.messages.filter(({ severity }) => severity === severity_error)
+    externalResourceFunction: async (uri) => bytes_of(path.join(folder, decodeURIComponent(uri))),
+  }).then(({ issues }) => issues.messages, unreadable)
+  return messages.filter(({ severity }) => severity === severity_error)
 }
 
 // Pointers move when objects are added; a kind of error that the input has as well is not ours. COLOR_0 is

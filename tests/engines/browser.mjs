@@ -33,7 +33,8 @@ export const url_of = (file) => `${origin}/file${path.resolve(file).split('/').m
 async function answer(route) {
   const file = file_of(route.request().url())
   if (!fs.existsSync(file)) return route.fulfill({ status: 404 })
-  return route.fulfill({ body: fs.readFileSync(file), contentType: types[path.extname(file)] ?? 'application/octet-stream' })
+  const contentType = types[path.extname(file)] ?? 'application/octet-stream'
+  return route.fulfill({ body: fs.readFileSync(file), contentType })
 }
 
 // { page, close }: the viewer is loaded. Drawing is done by SwiftShader, so that no graphics card is needed.

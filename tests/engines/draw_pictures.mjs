@@ -9,7 +9,7 @@ import { open_viewer, url_of } from './browser.mjs'
 const options = Object.fromEntries(['eye', 'at', 'fov', 'size'].map((name) => [name, { type: 'string' }]))
 const { values, positionals } = parseArgs({ allowPositionals: true, options })
 const [source, baked, picture] = positionals
-if (!picture) throw new Error('usage: node draw_pictures.mjs IN OUT PICTURE.png [--eye x,y,z] [--at x,y,z] [--fov D] [--size W,H]')
+if (!picture) throw new Error('usage: node draw_pictures.mjs IN OUT PICTURE.png [options]')
 const numbers = (text) => text?.split(',').map(Number)
 
 const [width, height] = numbers(values.size ?? '640,640')

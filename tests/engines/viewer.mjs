@@ -18,11 +18,10 @@ function camera_for(gltf, { width, height, eye, at, fov = 50 }) {
   let camera = gltf.cameras[0]
   if (eye || !camera) {
     camera = new THREE.PerspectiveCamera(fov)
-    const centre = box.getCenter(new THREE.Vector3())
-    camera.position.copy(eye ? new THREE.Vector3(...eye) : centre.clone().add(box.getSize(new THREE.Vector3()).multiplyScalar(0.9)))
+    const [centre, size] = [box.getCenter(new THREE.Vector3()), box.getSize(new THREE.Vector3())]
+    camera.position.copy(eye ? new THREE.Vector3(...eye) : centre.clone().addScaledVector(size, 0.9))
     camera.lookAt(at ? new THREE.Vector3(...at) : centre)
-    const size = box.getSize(new THREE.Vector3()).length()
-    Object.assign(camera, { near: size / 1e4, far: size * 10 })
+    Object.assign(camera, { near: size.length() / 1e4, far: size.length() * 10 })
   }
   camera.aspect = width / height
   camera.updateProjectionMatrix()
