@@ -1,1 +1,142 @@
-// placeholder
+#include "plugin/export_materials.h"
+
+#include <algorithm>
+#include <charconv>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace gltf_radiosity {
+namespace {
+
+constexpr const char* kUnlit = "KHR_materials_unlit";
+constexpr const char* kVariants = "KHR_materials_variants";
+constexpr std::string_view kPointer = "/materials/";
+
+/// Extensions of a material that say how it reflects light, or repack textures that do.
+bool shades(std::string_view extension) {
+  return extension.starts_with("KHR_materials_") || extension.starts_with("EXT_materials_") ||
+         extension.starts_with("ADOBE_materials_") || extension.starts_with("MSFT_packing_");
+}
+
+/// Calls `visit(key, value)` for every member of every object in the tree; elements of arrays have their array's key.
+template <typename Visit>
+void walk(const Json& value, const std::string& key, const Visit& visit) {
+  if (value.is_object()) {
+    for (const auto& item : value.items()) {
+      visit(item.key(), item.value());
+      walk(item.value(), item.key(), visit);
+    }
+  } else if (value.is_array()) {
+    for (const Json& element : value) {
+      visit(key, element);
+      walk(element, key, visit);
+    }
+  }
+}
+
+void erase_if_empty(Json& object, const char* key) {
+  if (object.contains(key) && object[key].empty()) object.erase(key);
+}
+
+/// Removes `name` from a root array of extension names, and the array with its last name.
+void remove_name(Json& root, const char* array, const std::string& name) {
+  if (!root.contains(array)) return;
+  Json& names = root[array];
+  names.erase(std::remove(names.begin(), names.end(), Json(name)), names.end());
+  erase_if_empty(root, array);
+}
+
+void declare_used(Json& root, const char* extension) {
+  Json& used = root["extensionsUsed"];
+  if (std::find(used.begin(), used.end(), Json(extension)) == used.end()) used.push_back(extension);
+}
+
+}  // namespace
+
+Json unlit_material(const Json& source, const ImportedMaterial& material) {
+  Json unlit = source.is_object() ? source : Json::object();
+
+  // Base colour: COLOR_0 holds the factor.
+  Json& pbr = unlit["pbrMetallicRoughness"];
+  if (!pbr.is_object()) pbr = Json::object();
+  pbr.erase("metallicRoughnessTexture");
+  pbr.erase("baseColorFactor");
+  if (material.base_color_factor.a != 1.0F) pbr["baseColorFactor"] = {1.0, 1.0, 1.0, material.base_color_factor.a};
+  pbr["metallicFactor"] = 0.0;
+  pbr["roughnessFactor"] = 1.0;
+
+  // What unlit does not show.
+  for (const char* key : {"emissiveFactor", "emissiveTexture", "normalTexture", "occlusionTexture"}) unlit.erase(key);
+  Json extensions = Json::object();
+  if (unlit.contains("extensions")) {
+    for (const auto& item : unlit["extensions"].items()) {
+      if (!shades(item.key())) extensions[item.key()] = item.value();
+    }
+  }
+  extensions[kUnlit] = Json::object();
+  unlit["extensions"] = std::move(extensions);
+  return unlit;
+}
+
+std::size_t export_unlit_material(Document& document, const ImportedMaterial& material,
+                                  const std::set<std::size_t>& referenced) {
+  declare_used(document.json, kUnlit);
+  Json& materials = document.json["materials"];
+  if (!material.source) {
+    materials.push_back(unlit_material(Json::object(), material));
+    return materials.size() - 1;
+  }
+  Json unlit = unlit_material(materials[*material.source], material);
+  if (referenced.contains(*material.source)) {
+    materials.push_back(std::move(unlit));
+    return materials.size() - 1;
+  }
+  materials[*material.source] = std::move(unlit);
+  return *material.source;
+}
+
+std::set<std::size_t> referenced_materials(const Json& root) {
+  std::set<std::size_t> referenced;
+  walk(root, "", [&](const std::string& key, const Json& value) {
+    if (value.is_number() && (key == "material" || key == "materials")) referenced.insert(value.get<std::size_t>());
+    if (value.is_string()) {
+      const std::string& text = value.get_ref<const std::string&>();
+      std::size_t index = 0;
+      if (text.starts_with(kPointer) &&
+          std::from_chars(text.data() + kPointer.size(), text.data() + text.size(), index).ec == std::errc()) {
+        referenced.insert(index);
+      }
+    }
+    if (key == "MSFT_lod" && value.is_object() && value.contains("ids")) {
+      for (const Json& id : value["ids"]) {
+        if (id.is_number()) referenced.insert(id.get<std::size_t>());
+      }
+    }
+  });
+  return referenced;
+}
+
+void forget_unused_material_extensions(Json& root) {
+  // Declared, and once on materials.
+  std::set<std::string> unused;
+  for (const char* array : {"extensionsUsed", "extensionsRequired"}) {
+    if (!root.contains(array)) continue;
+    for (const Json& name : root[array]) {
+      if (name.is_string() && shades(name.get_ref<const std::string&>())) unused.insert(name.get<std::string>());
+    }
+  }
+
+  // Still there.
+  walk(root, "", [&](const std::string& key, const Json& value) {
+    if (key != "extensions" || !value.is_object()) return;
+    for (const auto& item : value.items()) unused.erase(item.key());
+  });
+  unused.erase(kVariants);  // its list of names stays at the root
+  for (const std::string& name : unused) {
+    remove_name(root, "extensionsUsed", name);
+    remove_name(root, "extensionsRequired", name);
+  }
+}
+
+}  // namespace gltf_radiosity

@@ -1,18 +1,33 @@
 // Materials that show COLOR_0 as it is, in every engine.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <set>
 
 #include "plugin/document.h"
 #include "plugin/import_materials.h"
 
 namespace gltf_radiosity {
 
-/// Appends an unlit version of the source material (a clone, so that whatever else uses the source keeps it) and returns its
-/// index; called once per source material. KHR_materials_unlit is declared as used, not required. Kept: name, extras, base
-/// colour texture with its transform, alpha mode and cutoff, doubleSided, alpha factor. Set: base colour 1, metallic 0, roughness 1.
-/// Removed: emissive, normal, occlusion and metallic-roughness, and shading extensions.
-std::size_t export_unlit_material(Document& document, const ImportedMaterial& material);
+/// An unlit version of `source`, the JSON of the material that `material` was made of (an object without members for
+/// glTF's default material). Kept: name, extras, base colour texture with its transform, alpha mode and cutoff,
+/// doubleSided, alpha factor, extensions that do not shade. Set: KHR_materials_unlit, base colour 1, metallic 0,
+/// roughness 1. Removed: emissive, normal, occlusion and metallic-roughness, and shading extensions.
+Json unlit_material(const Json& source, const ImportedMaterial& material);
+
+/// Puts an unlit version of the material into the document and returns its index; called once per material. It takes
+/// the place of the source if nothing else refers to that, so that files carry no dead materials; otherwise it is
+/// appended. KHR_materials_unlit is declared as used, not required. `referenced`: materials that something unbaked
+/// still refers to (referenced_materials).
+std::size_t export_unlit_material(Document& document, const ImportedMaterial& material,
+                                  const std::set<std::size_t>& referenced);
+
+/// Every material that anything in the tree refers to by a member "material" or "materials", by an animation pointer or
+/// as a level of detail.
+std::set<std::size_t> referenced_materials(const Json& root);
+
+/// Takes the names of shading extensions that no longer occur off extensionsUsed and extensionsRequired.
+void forget_unused_material_extensions(Json& root);
 
 }  // namespace gltf_radiosity

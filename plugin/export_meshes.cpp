@@ -1,1 +1,185 @@
-// placeholder
+#include "plugin/export_meshes.h"
+
+#include <algorithm>
+#include <cassert>
+#include <map>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "plugin/interpolate_attributes.h"
+
+namespace gltf_radiosity {
+namespace {
+
+/// Fewer vertices fit 16-bit indices: 65535 itself means "restart the primitive".
+constexpr std::size_t kMaxVerticesOfU16 = 65535;
+
+/// Rewrites the accessors of one primitive.
+class AttributeExporter {
+ public:
+  AttributeExporter(Document& document, BufferBuilder& buffer, const PrimitiveInstance& instance,
+                    const RefinedPrimitive& refined)
+      : document_(document), buffer_(buffer), instance_(instance), refined_(refined) {}
+
+  /// REQUIRES: not a pair of JOINTS_n and WEIGHTS_n.
+  std::size_t attribute(const std::string& semantic, std::size_t accessor, bool morph_target) {
+    RawAccessor raw = source_rows(accessor);
+    const Interpolation how = morph_target ? Interpolation::kLinear : interpolation_of(semantic, raw);
+    const auto [known, is_new] = exported_.try_emplace({accessor, how}, 0);
+    if (is_new) {
+      append_midpoints(raw, how, refined_.midpoints);
+      known->second = append(raw, accessor, semantic == "POSITION");
+    }
+    return known->second;
+  }
+
+  /// All pairs of JOINTS_n and WEIGHTS_n in `attributes`.
+  void skin(Json& attributes) {
+    std::vector<SkinSet> sets;
+    for (std::size_t n = 0; has_skin_set(attributes, n); ++n) {
+      sets.push_back({source_rows(attributes[joints(n)].get<std::size_t>()),
+                      source_rows(attributes[weights(n)].get<std::size_t>())});
+    }
+    append_midpoints(sets, refined_.midpoints);
+    for (std::size_t n = 0; n < sets.size(); ++n) {
+      attributes[joints(n)] = append(sets[n].joints, attributes[joints(n)].get<std::size_t>(), false);
+      attributes[weights(n)] = append(sets[n].weights, attributes[weights(n)].get<std::size_t>(), false);
+    }
+    skin_set_count_ = sets.size();
+  }
+
+  bool is_done(const std::string& semantic) const {
+    for (std::size_t n = 0; n < skin_set_count_; ++n) {
+      if (semantic == joints(n) || semantic == weights(n)) return true;
+    }
+    return false;
+  }
+
+ private:
+  static std::string joints(std::size_t n) { return "JOINTS_" + std::to_string(n); }
+  static std::string weights(std::size_t n) { return "WEIGHTS_" + std::to_string(n); }
+
+  /// Whether set n is complete and stored as the specification says, so that its pairs can be merged.
+  bool has_skin_set(const Json& attributes, std::size_t n) const {
+    if (!attributes.contains(joints(n)) || !attributes.contains(weights(n))) return false;
+    const Json& accessors = document_.json["accessors"];
+    const Json& joint = accessors[attributes[joints(n)].get<std::size_t>()];
+    const Json& weight = accessors[attributes[weights(n)].get<std::size_t>()];
+    const int type = joint["componentType"].get<int>();
+    return joint["type"] == "VEC4" && weight["type"] == "VEC4" && (type == 5121 || type == 5123);
+  }
+
+  RawAccessor source_rows(std::size_t accessor) const {
+    return picked(read_accessor(document_, accessor), instance_.source_vertex);
+  }
+
+  std::size_t append(const RawAccessor& raw, std::size_t like, bool bounds) {
+    return append_accessor(document_, buffer_, raw, BufferTarget::kVertices, document_.json["accessors"][like], bounds);
+  }
+
+  Document& document_;
+  BufferBuilder& buffer_;
+  const PrimitiveInstance& instance_;
+  const RefinedPrimitive& refined_;
+  std::map<std::pair<std::size_t, Interpolation>, std::size_t> exported_;
+  std::size_t skin_set_count_ = 0;
+};
+
+RawAccessor index_accessor(const RefinedPrimitive& refined) {
+  const bool narrow = refined.vertices.size() <= kMaxVerticesOfU16;
+  RawAccessor raw{narrow ? ComponentType::kU16 : ComponentType::kU32, 1, false, refined.triangles.size() * 3, {}};
+  const std::size_t size = component_size(raw.component);
+  raw.bytes.reserve(raw.count * size);
+  for (const glm::uvec3& triangle : refined.triangles) {
+    for (int corner = 0; corner < 3; ++corner) {
+      for (std::size_t byte = 0; byte < size; ++byte) {
+        raw.bytes.push_back(static_cast<std::uint8_t>(triangle[corner] >> (8 * byte)));
+      }
+    }
+  }
+  return raw;
+}
+
+/// Deals the vertices to the instances; returns the output vertex of each vertex.
+std::vector<std::uint32_t> split_vertices(const radiosity::RefinedMesh& mesh, const ImportedScene& scene,
+                                          std::vector<RefinedPrimitive>& refined) {
+  const std::size_t vertex_count = mesh.scene_vertex_count + mesh.midpoints.size();
+  std::vector<std::uint32_t> instance_of(vertex_count), output_of(vertex_count);
+
+  // The scene's own.
+  for (std::uint32_t i = 0; i < refined.size(); ++i) {
+    const PrimitiveInstance& instance = scene.instances[i];
+    refined[i].vertices.resize(instance.vertex_count);
+    std::iota(refined[i].vertices.begin(), refined[i].vertices.end(), instance.first_vertex);
+    for (std::uint32_t v = 0; v < instance.vertex_count; ++v) {
+      instance_of[instance.first_vertex + v] = i;
+      output_of[instance.first_vertex + v] = v;
+    }
+  }
+
+  // Midpoints go where their ends are.
+  for (std::uint32_t k = 0; k < mesh.midpoints.size(); ++k) {
+    const std::uint32_t vertex = mesh.scene_vertex_count + k;
+    const glm::uvec2 ends = mesh.midpoints[k];
+    assert(ends.x < vertex && ends.y < vertex && instance_of[ends.x] == instance_of[ends.y]);
+    instance_of[vertex] = instance_of[ends.x];
+    RefinedPrimitive& primitive = refined[instance_of[vertex]];
+    output_of[vertex] = static_cast<std::uint32_t>(primitive.vertices.size());
+    primitive.vertices.push_back(vertex);
+    primitive.midpoints.emplace_back(output_of[ends.x], output_of[ends.y]);
+  }
+  return output_of;
+}
+
+}  // namespace
+
+std::vector<RefinedPrimitive> split_by_instance(const radiosity::RefinedMesh& mesh, const ImportedScene& scene) {
+  std::vector<RefinedPrimitive> refined(scene.instances.size());
+  const std::vector<std::uint32_t> output_of = split_vertices(mesh, scene, refined);
+
+  // Elements come in the order of their triangles, and so of the instances.
+  std::uint32_t element = 0;
+  for (std::size_t i = 0; i < refined.size(); ++i) {
+    const PrimitiveInstance& instance = scene.instances[i];
+    const std::uint32_t end = instance.first_triangle + instance.triangle_count;
+    for (; element < mesh.elements.size() && mesh.triangle_of_element[element] < end; ++element) {
+      const glm::uvec3& corners = mesh.elements[element];
+      const glm::uvec3 triangle(output_of[corners.x], output_of[corners.y], output_of[corners.z]);
+      refined[i].triangles.push_back(instance.mirrored ? glm::uvec3(triangle.x, triangle.z, triangle.y) : triangle);
+      refined[i].elements.push_back(element);
+    }
+    refined[i].changed = !refined[i].midpoints.empty() || refined[i].triangles.size() != instance.triangle_count ||
+                         !instance.source_vertex.empty();
+  }
+  return refined;
+}
+
+void export_geometry(Document& document, BufferBuilder& buffer, const PrimitiveInstance& instance,
+                     const RefinedPrimitive& refined, Json& primitive) {
+  // Attributes.
+  AttributeExporter exporter(document, buffer, instance, refined);
+  Json& attributes = primitive["attributes"];
+  exporter.skin(attributes);
+  for (auto& [semantic, accessor] : attributes.items()) {
+    if (semantic == "COLOR_0" || exporter.is_done(semantic)) continue;
+    accessor = exporter.attribute(semantic, accessor.get<std::size_t>(), false);
+  }
+
+  // Morph targets.
+  if (primitive.contains("targets")) {
+    for (Json& target : primitive["targets"]) {
+      for (auto& [semantic, accessor] : target.items()) {
+        accessor = exporter.attribute(semantic, accessor.get<std::size_t>(), true);
+      }
+    }
+  }
+
+  // Triangles.
+  const Json like = primitive.contains("indices") ? document.json["accessors"][primitive["indices"].get<std::size_t>()]
+                                                  : Json::object();
+  primitive["indices"] = append_accessor(document, buffer, index_accessor(refined), BufferTarget::kIndices, like);
+  if (primitive.contains("mode")) primitive["mode"] = 4;
+}
+
+}  // namespace gltf_radiosity

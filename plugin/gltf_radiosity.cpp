@@ -1,1 +1,160 @@
-// placeholder
+#include "plugin/gltf_radiosity.h"
+
+#include <cstring>
+#include <exception>
+#include <new>
+#include <utility>
+
+#include "core/bake.h"
+#include "plugin/check_options.h"
+#include "plugin/document.h"
+#include "plugin/export_scene.h"
+#include "plugin/import_scene.h"
+#include "plugin/make_report.h"
+#include "plugin/phases.h"
+#include "plugin/write_gltf.h"
+
+namespace gltf_radiosity {
+namespace {
+
+/// The one place where exceptions become errors: those of core, of the libraries and of the caller's callbacks.
+template <typename Work>
+auto behind_firewall(const Work& work) -> decltype(work()) {
+  try {
+    return work();
+  } catch (const radiosity::Cancelled&) {
+    return Error{ErrorCode::kCancelled, "", "cancelled"};
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::kLimit, "", "not enough memory"};
+  } catch (const std::exception& exception) {
+    return Error{ErrorCode::kInternal, "", exception.what()};
+  } catch (...) {
+    return Error{ErrorCode::kInternal, "", "unknown exception"};
+  }
+}
+
+radiosity::Visibility visibility_of(VisibilityMethod method) {
+  switch (method) {
+    case VisibilityMethod::kRaster:
+      return radiosity::Visibility::kRaster;
+    case VisibilityMethod::kRays:
+      return radiosity::Visibility::kRays;
+    case VisibilityMethod::kAuto:
+      break;
+  }
+  return radiosity::Visibility::kAuto;
+}
+
+radiosity::BakeOptions bake_options(const Options& options, const ImportedScene& scene, double patch_size) {
+  radiosity::BakeOptions result;
+  result.subdivide.patch_size = static_cast<float>(patch_size);
+  result.subdivide.level_of_triangle = scene.level_of_triangle;
+  result.refine_uniform = options.refine == Refine::kUniform;
+  result.hemicube_resolution = options.hemicube;
+  result.visibility = visibility_of(options.visibility);
+  result.solver =
+      options.solver == SolverMethod::kGathering ? radiosity::Solver::kGathering : radiosity::Solver::kProgressive;
+  result.residual = static_cast<float>(options.residual);
+  result.max_patches = options.max_patches;
+  result.threads = options.threads;
+  return result;
+}
+
+/// The longest edge that the display mesh may have, metres; 0 if it is the scene's own.
+double patch_size_of(const Options& options, const ImportedScene& scene) {
+  if (options.refine == Refine::kNone) return 0.0;
+  return options.patch_size > 0.0 ? options.patch_size
+                                  : static_cast<double>(radiosity::default_patch_size(scene.scene));
+}
+
+/// Import, bake and export: patches `document`, new data goes into `added`.
+Result<Report> bake_document(Document& document, BufferBuilder& added, const Options& options,
+                             const radiosity::Progress& progress) {
+  // Import.
+  Report report;
+  report.warnings = document.warnings;
+  progress.update("import", 0.0);
+  const Result<ImportedScene> scene = import_scene(document, options, report.warnings);
+  if (!scene) return scene.error();
+  if (const auto wrong = radiosity::validate(scene->scene)) return Error{ErrorCode::kInternal, "", *wrong};
+  add_figures(*scene, report);
+  progress.update("import", 1.0);
+
+  // Bake.
+  report.patch_size = patch_size_of(options, *scene);
+  const radiosity::Bake bake =
+      radiosity::bake(scene->scene, bake_options(options, *scene, report.patch_size), progress);
+  add_figures(bake.report, report);
+  add_warnings(bake.report, report.warnings);
+
+  // Export.
+  progress.update("export", 0.0);
+  add_figures(export_scene(document, added, *scene, bake, options, report.warnings), report);
+  progress.update("export", 1.0);
+  return report;
+}
+
+/// Read, bake_document, and whatever `write` does with the result.
+template <typename Read, typename Write>
+Result<Report> bake_between(const Read& read, const Write& write, const Options& options, const Callbacks& callbacks) {
+  // Read.
+  Phases phases(callbacks);
+  const radiosity::Progress& progress = phases.progress();
+  progress.update("read", 0.0);
+  Result<Document> document = read();
+  if (!document) return document.error();
+  progress.update("read", 1.0);
+
+  // Bake.
+  BufferBuilder added;
+  Result<Report> report = bake_document(*document, added, options, progress);
+  if (!report) return report.error();
+
+  // Write.
+  progress.update("write", 0.0);
+  const Result<Done> written = write(std::move(*document), added);
+  if (!written) return written.error();
+  progress.report("write", 1.0);  // too late to be cancelled
+  report->phases = phases.finish();
+  return report;
+}
+
+}  // namespace
+
+std::string_view version() { return GLTF_RADIOSITY_VERSION; }
+
+Result<Report> bake_file(const std::string& input, const std::string& output, const Options& options,
+                         const Callbacks& callbacks) {
+  return behind_firewall([&]() -> Result<Report> {
+    if (const auto checked = check_options(options); !checked) return checked.error();
+    if (const auto checked = check_output(input, output); !checked) return checked.error();
+    const auto read = [&] { return read_document(input); };
+    const auto write = [&](Document document, const BufferBuilder& added) {
+      return write_gltf(std::move(document), added, output);
+    };
+    return bake_between(read, write, options, callbacks);
+  });
+}
+
+Result<BakedGlb> bake_memory(std::span<const std::byte> input, const Options& options, const Callbacks& callbacks) {
+  return behind_firewall([&]() -> Result<BakedGlb> {
+    if (const auto checked = check_options(options); !checked) return checked.error();
+    BakedGlb baked;
+    const auto read = [&] {
+      return read_document(std::span(reinterpret_cast<const std::uint8_t*>(input.data()), input.size()), {});
+    };
+    const auto write = [&](Document document, const BufferBuilder& added) -> Result<Done> {
+      const Result<Bytes> glb = to_glb(std::move(document), added);
+      if (!glb) return glb.error();
+      baked.glb.resize(glb->size());
+      std::memcpy(baked.glb.data(), glb->data(), glb->size());
+      return Done{};
+    };
+    Result<Report> report = bake_between(read, write, options, callbacks);
+    if (!report) return report.error();
+    baked.report = std::move(*report);
+    return baked;
+  });
+}
+
+}  // namespace gltf_radiosity

@@ -1,1 +1,89 @@
-// placeholder
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "plugin/make_report.h"
+
+namespace gltf_radiosity {
+
+void add_figures(const ImportedScene& scene, Report& report) {
+  report.input_triangles = scene.scene.triangles.size();
+  report.input_vertices = scene.scene.positions.size();
+  report.lights = scene.punctual_light_count;
+  report.emissive_triangles = scene.emissive_triangle_count;
+}
+
+void add_figures(const radiosity::BakeReport& bake, Report& report) {
+  report.patches = bake.patch_count;
+  report.steps = bake.steps;
+  report.buried_elements = bake.buried_element_count;
+  report.residual = static_cast<double>(bake.residual);
+  report.emitted_flux = bake.emitted_flux;
+  report.absorbed_flux = bake.absorbed_flux;
+  report.escaped_flux = bake.escaped_flux;
+  report.visibility = bake.visibility == radiosity::Visibility::kRaster ? "raster" : "rays";
+}
+
+void add_figures(const ExportReport& exported, Report& report) {
+  report.output_triangles = exported.triangles;
+  report.output_vertices = exported.vertices;
+  report.exposure = exported.exposure;
+  report.clipped_share = exported.clipped_share;
+}
+
+void add_warnings(const radiosity::BakeReport& bake, std::vector<Warning>& warnings) {
+  const auto warn = [&](const char* code, std::string message) { warnings.push_back({code, "", std::move(message)}); };
+  if (!bake.lit) warn("no-light", "the scene holds no light: everything is black");
+  if (bake.degenerate_triangle_count > 0) {
+    warn("degenerate-triangles", fmt::format("{} triangles have no area: they stay in the file and carry no light",
+                                             bake.degenerate_triangle_count));
+  }
+  if (bake.buried_element_count > 0) {
+    warn("buried-elements", fmt::format("{} elements lie inside other objects: they show the light of their neighbours",
+                                        bake.buried_element_count));
+  }
+  if (bake.reflectance_clamped_area > 0.0) {
+    warn("reflectance-clamped",
+         fmt::format("{:.4g} m2 reflect more than {} of the light: light was computed as if they reflected that",
+                     bake.reflectance_clamped_area, radiosity::kMaxReflectance));
+  }
+  if (bake.reached_element_limit)
+    warn("element-limit", "the mesh grew too large before its edges were as short as the patch size");
+}
+
+std::string to_json(const Report& report) {
+  // Figures.
+  Json json = {{"version", version()},
+               {"inputTriangles", report.input_triangles},
+               {"inputVertices", report.input_vertices},
+               {"outputTriangles", report.output_triangles},
+               {"outputVertices", report.output_vertices},
+               {"patches", report.patches},
+               {"lights", report.lights},
+               {"emissiveTriangles", report.emissive_triangles},
+               {"steps", report.steps},
+               {"buriedElements", report.buried_elements},
+               {"patchSize", report.patch_size},
+               {"residual", report.residual},
+               {"emittedFlux", report.emitted_flux},
+               {"absorbedFlux", report.absorbed_flux},
+               {"escapedFlux", report.escaped_flux},
+               {"exposure", report.exposure},
+               {"clippedShare", report.clipped_share},
+               {"visibility", report.visibility}};
+
+  // Lists.
+  json["phases"] = Json::array();
+  for (const PhaseReport& phase : report.phases) {
+    json["phases"].push_back(
+        {{"name", phase.name}, {"seconds", phase.seconds}, {"peakMemoryBytes", phase.peak_memory_bytes}});
+  }
+  json["warnings"] = Json::array();
+  for (const Warning& warning : report.warnings) {
+    json["warnings"].push_back({{"code", warning.code}, {"place", warning.place}, {"message", warning.message}});
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace gltf_radiosity

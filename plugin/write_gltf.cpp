@@ -1,1 +1,242 @@
-// placeholder
+#include "plugin/write_gltf.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "plugin/merge_buffers.h"
+#include "plugin/pending_files.h"
+
+namespace gltf_radiosity {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint32_t kGlbMagic = 0x46546C67;   // "glTF"
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A;  // "JSON"
+constexpr std::uint32_t kBinChunk = 0x004E4942;   // "BIN"
+constexpr std::string_view kEmbeddedEnding = ".embedded.gltf";
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+std::string text_of(const Json& root, int indent) {
+  return root.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
+
+bool is_same_file(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  return fs::equivalent(a, b, error) && !error;
+}
+
+// --- GLB
+
+constexpr std::uint64_t padded(std::uint64_t size) { return (size + 3) / 4 * 4; }
+
+void append_u32(Bytes& bytes, std::uint64_t value) {
+  for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::uint8_t>(value >> shift));
+}
+
+void append_chunk(Bytes& bytes, std::uint32_t type, std::span<const std::uint8_t> data, std::uint8_t padding) {
+  append_u32(bytes, padded(data.size()));
+  append_u32(bytes, type);
+  bytes.insert(bytes.end(), data.begin(), data.end());
+  bytes.insert(bytes.end(), padded(data.size()) - data.size(), padding);
+}
+
+// --- URIs
+
+std::string base64(std::span<const std::uint8_t> bytes) {
+  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t left = std::min<std::size_t>(bytes.size() - i, 3);
+    std::uint32_t group = 0;
+    for (std::size_t b = 0; b < 3; ++b) group = (group << 8) | (b < left ? bytes[i + b] : 0U);
+    for (std::size_t d = 0; d < 4; ++d) text += d <= left ? kDigits[(group >> (18 - 6 * d)) & 63U] : '=';
+  }
+  return text;
+}
+
+std::string data_uri(const char* type, std::span<const std::uint8_t> bytes) {
+  return fmt::format("data:{};base64,{}", type, base64(bytes));
+}
+
+/// A relative path as a URI.
+std::string uri_of(const fs::path& path) {
+  std::string uri;
+  for (const char c : path.generic_string()) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr("-._~/", c) != nullptr;
+    uri += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return uri;
+}
+
+// --- .gltf
+
+void embed_images_as_uris(Json& root, std::size_t image, const Bytes& bytes) {
+  Json& json = root["images"][image];
+  const std::string type = json.value("mimeType", std::string(image_type(bytes)));
+  json["uri"] = data_uri(type.c_str(), bytes);
+}
+
+/// Whether a file may be put at `target`: 1 yes, 0 it is there already, -1 there is another.
+int room_for(const fs::path& target, const Bytes& bytes) {
+  std::error_code error;
+  if (!fs::exists(target, error)) return 1;
+  const Result<Bytes> there = read_file(target, "");
+  return there && *there == bytes ? 0 : -1;
+}
+
+/// A name that depends on nothing but the old one and what the file holds. (FNV-1a)
+fs::path name_by_content(const fs::path& path, const Bytes& bytes) {
+  std::uint32_t hash = 2166136261U;
+  for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 16777619U;
+  fs::path name = path;
+  name.replace_filename(fmt::format("{}-{:08x}{}", path.stem().string(), hash, path.extension().string()));
+  return name;
+}
+
+/// Copies an image that lies elsewhere to the same relative path below the output's folder.
+Result<Done> carry_image(Document& document, std::size_t image, const fs::path& folder, PendingFiles& files) {
+  // What it is.
+  Json& json = document.json["images"][image];
+  const Result<fs::path> file = resolve_uri(json["uri"].get<std::string>(), document.folder, place_of("images", image));
+  if (!file) return file.error();
+  const Result<Bytes> bytes = read_file(*file, "");
+  if (!bytes) return bytes.error();
+
+  // Where it goes.
+  std::error_code error;
+  fs::path name = file->lexically_relative(fs::weakly_canonical(document.folder, error));
+  int room = room_for(folder / name, *bytes);
+  if (room < 0) {
+    name = name_by_content(name, *bytes);
+    room = room_for(folder / name, *bytes);
+  }
+  if (room < 0) return Error{ErrorCode::kCannotWrite, (folder / name).string(), "is another file"};
+  json["uri"] = uri_of(name);
+  return room == 0 ? Result<Done>(Done{}) : files.add(folder / name, *bytes);
+}
+
+/// Takes care of the images that lie in files of their own.
+Result<Done> carry_images(Document& document, FileKind kind, const fs::path& folder, PendingFiles& files) {
+  if (!document.json.contains("images")) return Done{};
+  const bool stay = kind == FileKind::kGltf && is_same_file(document.folder, folder);
+  for (std::size_t i = 0; i < document.json["images"].size(); ++i) {
+    if (stay || !is_external(document.json["images"][i])) continue;
+    if (kind == FileKind::kGltf) {
+      if (auto carried = carry_image(document, i, folder, files); !carried) return carried;
+      continue;
+    }
+    const Result<Bytes> bytes = image_bytes(document, i);
+    if (!bytes) return bytes.error();
+    embed_images_as_uris(document.json, i, *bytes);
+  }
+  return Done{};
+}
+
+/// The .bin beside the output; another name if the input's own data lies there.
+fs::path bin_file(const Document& document, const fs::path& output) {
+  fs::path bin = output;
+  bin.replace_extension(".bin");
+  if (!document.json.contains("buffers")) return bin;
+  for (const Json& buffer : document.json["buffers"]) {
+    if (!buffer.contains("uri") || buffer["uri"].get_ref<const std::string&>().starts_with("data:")) continue;
+    const Result<fs::path> file = resolve_uri(buffer["uri"].get<std::string>(), document.folder, "");
+    if (file && is_same_file(*file, bin)) return bin.replace_extension(".baked.bin");
+  }
+  return bin;
+}
+
+Result<Done> write_json(Document& document, const BufferBuilder& added, FileKind kind, const fs::path& output,
+                        PendingFiles& files) {
+  if (auto carried = carry_images(document, kind, folder_of(output), files); !carried) return carried;
+  const fs::path bin = bin_file(document, output);
+  Json& root = document.json;
+  {
+    const Bytes merged = merge_buffers(document, added);
+    if (!merged.empty() && kind == FileKind::kEmbedded) {
+      root["buffers"][0]["uri"] = data_uri("application/octet-stream", merged);
+    } else if (!merged.empty()) {
+      root["buffers"][0]["uri"] = uri_of(bin.filename());
+      if (auto written = files.add(bin, merged); !written) return written;
+    }
+  }
+  return files.add(output, text_of(root, 2) + "\n");
+}
+
+}  // namespace
+
+std::optional<FileKind> file_kind(const std::filesystem::path& output) {
+  const std::string name = lower_case(output.filename().string());
+  if (name.ends_with(kEmbeddedEnding)) return FileKind::kEmbedded;
+  if (name.ends_with(".gltf")) return FileKind::kGltf;
+  if (name.ends_with(".glb")) return FileKind::kGlb;
+  return std::nullopt;
+}
+
+Result<Bytes> to_glb(Document document, const BufferBuilder& added, std::uint64_t max_bytes) {
+  // Everything into one buffer.
+  Bytes bin = merge_buffers(document, added);
+  if (auto embedded = embed_images(document, bin); !embedded) return embedded.error();
+  const std::string text = text_of(document.json, -1);
+
+  // Header and chunks.
+  const std::uint64_t size = 20 + padded(text.size()) + (bin.empty() ? 0 : 8 + padded(bin.size()));
+  if (size > max_bytes) {
+    return Error{ErrorCode::kCannotWrite, "",
+                 fmt::format("the GLB would have {} bytes, more than its format can hold: write a .gltf", size)};
+  }
+  Bytes glb;
+  glb.reserve(size);
+  append_u32(glb, kGlbMagic);
+  append_u32(glb, 2);
+  append_u32(glb, size);
+  append_chunk(glb, kJsonChunk, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, ' ');
+  if (!bin.empty()) append_chunk(glb, kBinChunk, bin, 0);
+  return glb;
+}
+
+Result<Done> check_output(const std::filesystem::path& input, const std::filesystem::path& output) {
+  const auto refuse = [&](ErrorCode code, const char* why) { return Error{code, output.string(), why}; };
+  std::error_code error;
+  const fs::path folder = folder_of(output);
+  if (!file_kind(output)) return refuse(ErrorCode::kBadOption, "the output's name must end in .glb or .gltf");
+  if (!fs::is_directory(folder, error)) return refuse(ErrorCode::kCannotWrite, "the output's folder does not exist");
+  if (fs::exists(output, error) && !fs::is_regular_file(output, error)) {
+    return refuse(ErrorCode::kCannotWrite, "exists and is not a file");
+  }
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+    return refuse(ErrorCode::kCannotWrite, "the output's folder cannot be written to");
+  }
+  if (is_same_file(input, output)) return refuse(ErrorCode::kBadOption, "the output is the input itself");
+  return Done{};
+}
+
+Result<Done> write_gltf(Document document, const BufferBuilder& added, const std::filesystem::path& output) {
+  const std::optional<FileKind> kind = file_kind(output);
+  if (!kind) return Error{ErrorCode::kBadOption, output.string(), "the output's name must end in .glb or .gltf"};
+  PendingFiles files;
+  if (kind == FileKind::kGlb) {
+    const Result<Bytes> glb = to_glb(std::move(document), added);
+    if (!glb) return glb.error();
+    if (auto written = files.add(output, *glb); !written) return written;
+  } else if (auto written = write_json(document, added, *kind, output, files); !written) {
+    return written;
+  }
+  return files.commit();
+}
+
+}  // namespace gltf_radiosity

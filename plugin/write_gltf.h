@@ -1,18 +1,37 @@
 // A patched document -> bytes -> files that appear whole or not at all.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 
+#include "plugin/append_accessor.h"
 #include "plugin/document.h"
-#include "plugin/export_meshes.h"
 
 namespace gltf_radiosity {
 
-/// The document as one GLB: all buffers merged into the binary chunk, external images embedded, bytes untouched.
-Result<Bytes> to_glb(Document document, const BufferBuilder& added);
+/// How a glTF is stored, by the end of the file's name (upper or lower case).
+enum class FileKind {
+  kGlb,       ///< .glb
+  kGltf,      ///< .gltf with a .bin beside it
+  kEmbedded,  ///< .embedded.gltf: everything as data URIs
+};
+std::optional<FileKind> file_kind(const std::filesystem::path& output);
 
-/// Writes .glb, .embedded.gltf (everything as data URIs) or .gltf + .bin (images that lie outside the output's folder are
-/// copied beside it), by the output's name. Each file is written beside its target, flushed and renamed.
+/// The length of a GLB is stored in 32 bits.
+inline constexpr std::uint64_t kMaxGlbBytes = 0xffffffffU;
+
+/// The document as one GLB: all buffers merged into the binary chunk, external images embedded, bytes untouched.
+/// `added` is the last buffer, [document.buffers.size()]. More than `max_bytes` is an error.
+Result<Bytes> to_glb(Document document, const BufferBuilder& added, std::uint64_t max_bytes = kMaxGlbBytes);
+
+/// Whether `output` can be written, as far as that shows beforehand: a known kind, in a folder that exists and can be
+/// written to, neither something else than a file nor the input itself. `input` is empty for a document from memory.
+Result<Done> check_output(const std::filesystem::path& input, const std::filesystem::path& output);
+
+/// Writes a file of the kind its name says. Images that lie outside the output's folder are copied into it; no file
+/// that holds something else is overwritten by that. Files appear whole or not at all (pending_files.h), the .bin
+/// before the .gltf that refers to it.
 Result<Done> write_gltf(Document document, const BufferBuilder& added, const std::filesystem::path& output);
 
 }  // namespace gltf_radiosity

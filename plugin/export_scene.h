@@ -1,0 +1,28 @@
+// The baked light -> the glTF's tree: the whole export in one short function.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/bake.h"
+#include "plugin/append_accessor.h"
+#include "plugin/document.h"
+#include "plugin/import_scene.h"
+
+namespace gltf_radiosity {
+
+/// What was exported.
+struct ExportReport {
+  double exposure = 1.0;        ///< k, m2/cd
+  double clipped_share = 0.0;   ///< of the baked area
+  std::uint64_t triangles = 0;  ///< of all instances, as stored
+  std::uint64_t vertices = 0;
+};
+
+/// Gives every primitive instance that receives light its COLOR_0, an unlit material and, where it was subdivided, its
+/// new geometry; new data goes into `buffer`. A mesh stays where it is for its first baked node if only baked nodes use
+/// it; other nodes get copies. What was done goes into asset.extras.radiosity, warnings into `warnings`.
+ExportReport export_scene(Document& document, BufferBuilder& buffer, const ImportedScene& scene,
+                          const radiosity::Bake& bake, const Options& options, std::vector<Warning>& warnings);
+
+}  // namespace gltf_radiosity

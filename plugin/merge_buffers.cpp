@@ -1,0 +1,117 @@
+#include "plugin/merge_buffers.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace gltf_radiosity {
+namespace {
+
+std::size_t append_aligned(Bytes& bytes, std::span<const std::uint8_t> more) {
+  bytes.resize((bytes.size() + 3) / 4 * 4);
+  const std::size_t offset = bytes.size();
+  bytes.insert(bytes.end(), more.begin(), more.end());
+  return offset;
+}
+
+/// Points `view` (a bufferView, or an extension of one that names a buffer) to the merged buffer.
+void rebase(Json& view, const std::vector<std::size_t>& offsets) {
+  const std::size_t buffer = view["buffer"].get<std::size_t>();
+  const std::size_t offset = offsets[buffer] + view.value("byteOffset", std::size_t{0});
+  view["buffer"] = 0;
+  if (offset != 0 || view.contains("byteOffset")) view["byteOffset"] = offset;
+}
+
+void rebase_views(Json& root, const std::vector<std::size_t>& offsets) {
+  if (!root.contains("bufferViews")) return;
+  for (Json& view : root["bufferViews"]) {
+    rebase(view, offsets);
+    if (!view.contains("extensions")) continue;
+    for (Json& extension : view["extensions"]) {
+      const bool names_buffer = extension.is_object() && extension.contains("buffer") &&
+                                extension["buffer"].is_number_unsigned() &&
+                                extension["buffer"].get<std::size_t>() < offsets.size();
+      if (names_buffer) rebase(extension, offsets);
+    }
+  }
+}
+
+}  // namespace
+
+Bytes merge_buffers(Document& document, const BufferBuilder& added) {
+  // Reserve once: the data may be most of the memory there is.
+  Json& root = document.json;
+  std::size_t total = added.bytes().size() + 8;
+  for (const Bytes& buffer : document.buffers) total += buffer.size() + 4;
+  Bytes merged;
+  merged.reserve(total);
+
+  // Bytes.
+  std::vector<std::size_t> offsets;
+  for (std::size_t i = 0; i < document.buffers.size(); ++i) {
+    const Bytes bytes = std::move(document.buffers[i]);
+    const std::size_t length = root["buffers"][i]["byteLength"].get<std::size_t>();
+    offsets.push_back(append_aligned(merged, std::span(bytes).first(length)));
+  }
+  document.buffers.clear();
+  offsets.push_back(append_aligned(merged, added.bytes()));
+
+  // Tree. The first buffer keeps its name and extras.
+  rebase_views(root, offsets);
+  Json buffer = root.contains("buffers") && !root["buffers"].empty() ? root["buffers"][0] : Json::object();
+  buffer.erase("uri");
+  buffer["byteLength"] = merged.size();
+  if (merged.empty()) {
+    root.erase("buffers");
+  } else {
+    root["buffers"] = Json::array({std::move(buffer)});
+  }
+  return merged;
+}
+
+Result<Done> embed_images(Document& document, Bytes& merged) {
+  Json& root = document.json;
+  if (!root.contains("images")) return Done{};
+  for (std::size_t i = 0; i < root["images"].size(); ++i) {
+    Json& image = root["images"][i];
+    if (!is_external(image)) continue;
+    const Result<Bytes> bytes = image_bytes(document, i);
+    if (!bytes) return bytes.error();
+
+    const std::size_t offset = append_aligned(merged, *bytes);
+    Json& views = root["bufferViews"];
+    views.push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes->size()}});
+    image.erase("uri");
+    image["bufferView"] = views.size() - 1;
+    if (!image.contains("mimeType")) image["mimeType"] = image_type(*bytes);
+  }
+  if (!merged.empty()) root["buffers"][0]["byteLength"] = merged.size();
+  return Done{};
+}
+
+const char* image_type(std::span<const std::uint8_t> bytes) {
+  struct Signature {
+    std::size_t at;
+    std::string_view bytes;
+    const char* type;
+  };
+  static constexpr std::array<Signature, 5> kSignatures = {{{0, "\x89PNG", "image/png"},
+                                                            {0, "\xff\xd8\xff", "image/jpeg"},
+                                                            {8, "WEBP", "image/webp"},
+                                                            {1, "KTX 20", "image/ktx2"},
+                                                            {8, "avif", "image/avif"}}};
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const auto* known = std::find_if(kSignatures.begin(), kSignatures.end(), [&](const Signature& signature) {
+    return text.size() > signature.at && text.substr(signature.at).starts_with(signature.bytes);
+  });
+  return known == kSignatures.end() ? "application/octet-stream" : known->type;
+}
+
+bool is_external(const Json& image) {
+  return image.contains("uri") && !image.contains("bufferView") &&
+         !image["uri"].get_ref<const std::string&>().starts_with("data:");
+}
+
+}  // namespace gltf_radiosity
