@@ -174,7 +174,7 @@ void average(const Scene& scene, std::span<const float> areas, std::uint32_t pat
     if (std::max({rho.x, rho.y, rho.z}) >= kMaxReflectance) patches.reflectance_clamped_area += tile.area;
     const Rgb luminance = flux[index] > 0.0F ? mean_emission(scene, tile.triangle, tile.part) : Rgb(0.0F);
     if (is_lamp[index]) {
-      EmissiveTile lamp{{}, luminance, surface.two_sided};
+      EmissiveTile lamp{{}, luminance, surface.two_sided, patches.patch_of_tile[index]};
       for (int k = 0; k < 3; ++k) lamp.corner[k] = point_at(scene, tile.triangle, tile.part.corner[k]);
       patches.lamps.push_back(lamp);
     }
@@ -185,6 +185,9 @@ void average(const Scene& scene, std::span<const float> areas, std::uint32_t pat
       if (!is_lamp[index]) glow[patch] += glm::dvec3(luminance) * double{tile.area};
     }
   });
+
+  std::stable_sort(patches.lamps.begin(), patches.lamps.end(),
+                   [](const EmissiveTile& a, const EmissiveTile& b) { return a.patch < b.patch; });
 
   // Sums become means.
   patches.area.resize(patch_count);
@@ -213,8 +216,11 @@ void place_points(const Scene& scene, std::span<const float> areas, int points_p
       const double wanted = (k + 0.5) / points_per_patch * double{patches.area[patch]};
       if (covered[patch] < wanted * (1.0 - 1e-6)) return;
 
-      // Several points in one tile: spread them by the R2 sequence (Roberts 2018), folded into the triangle.
-      glm::vec2 at = glm::fract(glm::vec2(0.5F) + static_cast<float>(k) * glm::vec2(0.75487767F, 0.56984029F));
+      // Several points in one tile: spread them by the R2 sequence (Roberts 2018), folded into the triangle. It runs on
+      // from patch to patch: started anew at each it leaned to one side on all of them, which made whole walls 1.4 %
+      // wrong (unit cube, 400 patches).
+      const double step = static_cast<double>(patch) * points_per_patch + k;
+      glm::vec2 at(glm::fract(glm::dvec2(0.5) + step * glm::dvec2(0.7548776662466927, 0.5698402909980532)));
       if (at.x + at.y > 1.0F) at = 1.0F - at;
       at = glm::mix(glm::vec2(1.0F / 3.0F), at, 0.9F);
       const auto& c = tile.part.corner;
