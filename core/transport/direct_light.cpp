@@ -12,46 +12,6 @@
 namespace radiosity {
 namespace {
 
-/// Beyond this many edge lengths a lamp counts as a point: 1/2 per cent wrong at most.
-constexpr float kPointLike = 6.0F;
-
-/// A polygon cut off at a horizon: a triangle keeps at most four corners.
-struct Polygon {
-  glm::vec3 corner[4];
-  int count = 0;
-};
-
-/// The part of a triangle above the plane through the origin. Sutherland and Hodgman, Reentrant Polygon Clipping, 1974.
-Polygon above_horizon(const glm::vec3 corner[3], const SurfacePoint& at) {
-  glm::vec3 relative[3];
-  float height[3];
-  for (int k = 0; k < 3; ++k) {
-    relative[k] = corner[k] - at.position;
-    height[k] = glm::dot(relative[k], at.normal);
-  }
-  Polygon polygon;
-  for (int k = 0; k < 3; ++k) {
-    const int next = (k + 1) % 3;
-    if (height[k] > 0.0F) polygon.corner[polygon.count++] = relative[k];
-    if ((height[k] > 0.0F) != (height[next] > 0.0F)) {
-      const float t = height[k] / (height[k] - height[next]);
-      polygon.corner[polygon.count++] = glm::mix(relative[k], relative[next], t);
-    }
-  }
-  return polygon;
-}
-
-/// Irradiance at unit luminance from a lamp so far off that it counts as a point.
-float point_like_irradiance(const EmissiveTile& lamp, const glm::vec3& middle, const SurfacePoint& at) {
-  const glm::vec3 scaled_normal = 0.5F * glm::cross(lamp.corner[1] - lamp.corner[0], lamp.corner[2] - lamp.corner[0]);
-  const glm::vec3 to_lamp = middle - at.position;
-  const float d2 = glm::dot(to_lamp, to_lamp);
-  const float at_lamp = -glm::dot(scaled_normal, to_lamp), here = glm::dot(at.normal, to_lamp);
-  return here <= 0.0F ? 0.0F : at_lamp * here / (d2 * d2);
-}
-
-glm::vec3 middle_of(const EmissiveTile& lamp) { return (lamp.corner[0] + lamp.corner[1] + lamp.corner[2]) / 3.0F; }
-
 /// A hash of an index, [0,1): shifts a sequence by a different amount at each point.
 float shift(std::uint32_t index, std::uint32_t salt) {
   std::uint32_t h = index * 0x9E3779B9U + salt * 0x85EBCA6BU;
@@ -61,7 +21,14 @@ float shift(std::uint32_t index, std::uint32_t salt) {
   return static_cast<float>(h >> 8U) * 0x1p-24F;
 }
 
-float wrap(float x) { return x - std::floor(x); }
+/// A ray to a place on a lamp; `at` in the unit square is folded into the triangle.
+ShadowRay ray_to_lamp(const EmissiveTile& lamp, glm::vec2 at, const glm::vec3& from, float offset) {
+  if (at.x + at.y > 1.0F) at = 1.0F - at;
+  const glm::vec3 target =
+      lamp.corner[0] + at.x * (lamp.corner[1] - lamp.corner[0]) + at.y * (lamp.corner[2] - lamp.corner[0]);
+  const float distance = std::max(glm::distance(target, from), 1e-20F);
+  return {from, (target - from) / distance, std::max(0.0F, distance * (1.0F - 1e-4F) - 2.0F * offset), 0.0F};
+}
 
 /// How much of a light's intensity remains at a distance, as KHR_lights_punctual defines it (1/m2).
 float attenuation(const Light& light, float distance) {
@@ -79,122 +46,82 @@ float spot_falloff(const Light& light, const glm::vec3& to_light) {
 
 /// Working memory of one thread, reused from point to point.
 struct Scratch {
-  std::vector<float> irradiance;  // per lamp, at its own luminance's eye-weighted sum
-  std::vector<double> cumulative;
+  LampWeights weights;
   std::vector<ShadowRay> rays;
-  std::vector<std::uint32_t> lamp_of_ray;
+  std::vector<Rgb> irradiance;  // what each ray brings if it is free, times the number of rays
   std::vector<std::uint8_t> blocked;
+
+  void clear() {
+    rays.clear();
+    irradiance.clear();
+    blocked.clear();
+  }
+  /// Traces the rays added since the last call.
+  void trace(const RayScene& scene) {
+    const std::size_t first = blocked.size();
+    blocked.resize(rays.size());
+    trace_shadow_rays(scene, std::span(rays).subspan(first), std::span(blocked).subspan(first));
+  }
+  Rgb sum_of_free() const {
+    glm::dvec3 sum(0.0);
+    for (std::size_t r = 0; r < rays.size(); ++r) {
+      if (blocked[r] == 0) sum += glm::dvec3(irradiance[r]);
+    }
+    return Rgb(sum);
+  }
 };
 
 }  // namespace
 
-float triangle_irradiance(const glm::vec3 corner[3], const SurfacePoint& at) {
-  const Polygon polygon = above_horizon(corner, at);
-  if (polygon.count < 3) return 0.0F;
-
-  // Lambert: half the sum, over the edges, of the angle each spans times the cosine to its plane's normal.
-  double sum = 0.0;
-  for (int k = 0; k < polygon.count; ++k) {
-    const glm::dvec3 a = polygon.corner[k], b = polygon.corner[(k + 1) % polygon.count];
-    const glm::dvec3 normal = glm::cross(a, b);
-    const double sine = glm::length(normal);
-    if (sine > 0.0) sum += std::atan2(sine, glm::dot(a, b)) / sine * glm::dot(normal, glm::dvec3(at.normal));
-  }
-  return static_cast<float>(-0.5 * sum);
-}
-
 DirectLight::DirectLight(const RayScene& rays, const Patches& patches, const DirectLightOptions& options)
-    : rays_(rays), patches_(patches), options_(options), offset_(surface_offset(rays.scene())) {
-  reach2_.reserve(patches.lamps.size());
-  for (const EmissiveTile& lamp : patches.lamps) {
-    float longest = 0.0F;
-    for (int k = 0; k < 3; ++k) longest = std::max(longest, glm::distance(lamp.corner[k], lamp.corner[(k + 1) % 3]));
-    reach2_.push_back(kPointLike * kPointLike * longest * longest);
-  }
-}
+    : rays_(rays), lamps_(patches.lamps), options_(options), offset_(surface_offset(rays.scene())) {}
 
 Rgb DirectLight::at(const SurfacePoint& point, std::uint32_t index) const {
   return from_lamps(point, index) + from_lights(point, index);
 }
 
 Rgb DirectLight::from_lamps(const SurfacePoint& point, std::uint32_t index) const {
-  if (patches_.lamps.empty()) return Rgb(0.0F);
+  if (lamps_.empty()) return Rgb(0.0F);
   thread_local Scratch scratch;
+  scratch.clear();
+  lamps_.weigh(point, scratch.weights);
+  if (!(scratch.weights.total > 0.0)) return Rgb(0.0F);
 
-  // What each lamp would bring if nothing were in between.
-  const std::size_t lamp_count = patches_.lamps.size();
-  scratch.irradiance.resize(lamp_count);
-  scratch.cumulative.resize(lamp_count);
-  double total = 0.0;
-  for (std::size_t k = 0; k < lamp_count; ++k) {
-    const EmissiveTile& lamp = patches_.lamps[k];
-    const glm::vec3 middle = middle_of(lamp);
-    const glm::vec3 apart = middle - point.position;
-    float unit = glm::dot(apart, apart) > reach2_[k] ? point_like_irradiance(lamp, middle, point)
-                                                     : triangle_irradiance(lamp.corner, point);
-    unit = lamp.two_sided ? std::abs(unit) : std::max(unit, 0.0F);
-    scratch.irradiance[k] = unit;
-    total += double{unit} * double{luminance_of(lamp.luminance)};
-    scratch.cumulative[k] = total;
-  }
-  if (!(total > 0.0)) return Rgb(0.0F);
-
-  // One ray to each of evenly spaced places along the cumulative contribution; `stride` apart in the first pass.
+  // A ray to a place on the lamp that is due at step r of evenly spaced steps.
   const glm::vec3 from = point.position + offset_ * point.normal;
-  const int ray_count = options_.lamp_rays, stride = std::max(1, ray_count / options_.probe_rays);
-  const float offset_along = shift(index, 1), offset_x = shift(index, 2), offset_y = shift(index, 3);
+  const glm::vec3 start(shift(index, 1), shift(index, 2), shift(index, 3));
   const auto add_ray = [&](int r) {
-    const double along = (r + double{offset_along}) / ray_count * total;
-    const auto found = std::lower_bound(scratch.cumulative.begin(), scratch.cumulative.end(), along);
-    const auto k = std::min(static_cast<std::size_t>(found - scratch.cumulative.begin()), lamp_count - 1);
-    const EmissiveTile& lamp = patches_.lamps[k];
-    glm::vec2 at(wrap(offset_x + static_cast<float>(r) * 0.75487767F),
-                 wrap(offset_y + static_cast<float>(r) * 0.56984029F));
+    const auto step = static_cast<float>(r);
+    const ChosenLamp chosen = lamps_.choose(point, scratch.weights, (r + double{start.x}) / options_.lamp_rays);
+    const auto& corner = lamps_.tile(chosen.lamp).corner;
+    glm::vec2 at = glm::fract(glm::vec2(start.y, start.z) + step * glm::vec2(0.75487767F, 0.56984029F));
     if (at.x + at.y > 1.0F) at = 1.0F - at;
-    const glm::vec3 target =
-        lamp.corner[0] + at.x * (lamp.corner[1] - lamp.corner[0]) + at.y * (lamp.corner[2] - lamp.corner[0]);
+    const glm::vec3 target = corner[0] + at.x * (corner[1] - corner[0]) + at.y * (corner[2] - corner[0]);
     const float distance = std::max(glm::distance(target, from), 1e-20F);
-    scratch.rays.push_back({from, (target - from) / distance,
-                            std::max(0.0F, distance * (1.0F - 1e-4F) - 2.0F * offset_),
-                            wrap(offset_along + static_cast<float>(r) * 0.61803399F)});
-    scratch.lamp_of_ray.push_back(static_cast<std::uint32_t>(k));
+    const float free_distance = std::max(0.0F, distance * (1.0F - 1e-4F) - 2.0F * offset_);
+    scratch.rays.push_back({from, (target - from) / distance, free_distance, glm::fract(start.x + step * 0.61803399F)});
+    scratch.irradiance.push_back(chosen.irradiance);
   };
-  scratch.rays.clear();
-  scratch.lamp_of_ray.clear();
-  const auto trace_from = [&](std::size_t first) {
-    scratch.blocked.resize(scratch.rays.size());
-    trace_shadow_rays(rays_, std::span(scratch.rays).subspan(first), std::span(scratch.blocked).subspan(first));
-  };
-  for (int r = 0; r < ray_count; r += stride) add_ray(r);
-  trace_from(0);
 
-  // Where the probes disagree lies a penumbra: send the rest.
+  // Probes first. Where they disagree lies a penumbra: send the rest.
+  const int stride = std::max(1, options_.lamp_rays / options_.probe_rays);
+  for (int r = 0; r < options_.lamp_rays; r += stride) add_ray(r);
+  scratch.trace(rays_);
   const auto blocked_count = std::count(scratch.blocked.begin(), scratch.blocked.end(), std::uint8_t{1});
   if (blocked_count != 0 && blocked_count != std::ssize(scratch.blocked)) {
-    const std::size_t first = scratch.rays.size();
-    for (int r = 0; r < ray_count; ++r) {
+    for (int r = 0; r < options_.lamp_rays; ++r) {
       if (r % stride != 0) add_ray(r);
     }
-    trace_from(first);
+    scratch.trace(rays_);
   }
-
-  // A ray stands for an equal share of the total, in the colour of its lamp.
-  glm::dvec3 sum(0.0);
-  for (std::size_t r = 0; r < scratch.rays.size(); ++r) {
-    if (scratch.blocked[r] != 0) continue;
-    const Rgb& luminance = patches_.lamps[scratch.lamp_of_ray[r]].luminance;
-    sum += glm::dvec3(luminance) / double{luminance_of(luminance)};
-  }
-  return Rgb(sum * (total / static_cast<double>(scratch.rays.size())));
+  return scratch.sum_of_free() / static_cast<float>(scratch.rays.size());
 }
 
 Rgb DirectLight::from_lights(const SurfacePoint& point, std::uint32_t index) const {
   const std::vector<Light>& lights = rays_.scene().lights;
   if (lights.empty()) return Rgb(0.0F);
   thread_local Scratch scratch;
-  thread_local std::vector<Rgb> unoccluded;
-  scratch.rays.clear();
-  unoccluded.clear();
+  scratch.clear();
 
   // What each light would bring, and the ray that asks whether it does.
   const glm::vec3 from = point.position + offset_ * point.normal;
@@ -211,16 +138,10 @@ Rgb DirectLight::from_lights(const SurfacePoint& point, std::uint32_t index) con
     irradiance *= std::max(0.0F, glm::dot(point.normal, ray.to_target));
     if (luminance_of(irradiance) <= 0.0F) continue;
     scratch.rays.push_back(ray);
-    unoccluded.push_back(irradiance);
+    scratch.irradiance.push_back(irradiance);
   }
-
-  scratch.blocked.resize(scratch.rays.size());
-  trace_shadow_rays(rays_, scratch.rays, scratch.blocked);
-  Rgb sum(0.0F);
-  for (std::size_t k = 0; k < unoccluded.size(); ++k) {
-    if (scratch.blocked[k] == 0) sum += unoccluded[k];
-  }
-  return sum;
+  scratch.trace(rays_);
+  return scratch.sum_of_free();
 }
 
 std::vector<Rgb> direct_on_patches(const DirectLight& direct, const Patches& patches, const Progress& progress) {
