@@ -1,1 +1,293 @@
-// placeholder
+#include "core/mesh/patches.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <random>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "core/photometry.h"
+#include "tests/core/test_scenes.h"
+
+namespace radiosity {
+namespace {
+
+double area_of(const SubTriangle& part) {
+  const glm::dvec2 u = part.corner[1] - part.corner[0], v = part.corner[2] - part.corner[0];
+  return 0.5 * (u.x * v.y - u.y * v.x);
+}
+
+Barycentrics middle_of(const SubTriangle& part) { return (part.corner[0] + part.corner[1] + part.corner[2]) / 3.0F; }
+
+/// Whether `part` holds a point, give or take rounding.
+bool holds(const SubTriangle& part, Barycentrics at) {
+  for (int k = 0; k < 3; ++k) {
+    const SubTriangle third{{part.corner[k], part.corner[(k + 1) % 3], at}};
+    if (area_of(third) < -1e-6) return false;
+  }
+  return true;
+}
+
+Patches patches_of(const Scene& scene, int max_patches) {
+  return make_patches(scene, {.max_patches = max_patches}, {});
+}
+
+/// Area of everything that sends light, both sides of two-sided surfaces, m2.
+double sending_area(const Scene& scene) {
+  double area = 0.0;
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+    const double sides = scene.surfaces[scene.surface_of_triangle[t]].two_sided ? 2.0 : 1.0;
+    area += sides * 0.5 * double{glm::length(scaled_normal(scene, t))};
+  }
+  return area;
+}
+
+double sum(std::span<const float> values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
+/// The triangle that holds a point of the scene, and where.
+std::pair<std::uint32_t, Barycentrics> find(const Scene& scene, const SurfacePoint& point) {
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+    const glm::dvec3 a = scene.positions[scene.triangles[t].x], b = scene.positions[scene.triangles[t].y],
+                     c = scene.positions[scene.triangles[t].z], p = point.position;
+    const glm::dvec3 n = glm::cross(b - a, c - a);
+    const double n2 = glm::dot(n, n);
+    const Barycentrics at(glm::dot(glm::cross(p - a, c - a), n) / n2, glm::dot(glm::cross(b - a, p - a), n) / n2);
+    const bool in_plane = std::abs(glm::dot(p - a, n)) < 1e-6 * std::sqrt(n2);
+    if (in_plane && holds({}, at)) return {t, at};
+  }
+  return {kNothing, {}};
+}
+
+std::vector<std::pair<std::string, Scene>> scenes() {
+  return {{"box", test::box_room({2, 1, 3}, {})},
+          {"cornell", test::cornell_box()},
+          {"occluder", test::occluder()},
+          {"boxes", test::many_boxes(10, 1)},
+          {"tessellated", test::tessellated(test::occluder(), 5)}};
+}
+
+/// Reflects and emits more where the first barycentric coordinate is larger.
+struct Ramp final : SurfaceDetail {
+  Rgb reflectance(std::uint32_t, const SubTriangle& part) const override { return Rgb(middle_of(part).x); }
+  Rgb emission(std::uint32_t, const SubTriangle& part) const override { return Rgb(10.0F * middle_of(part).x); }
+  float opacity(std::uint32_t, Barycentrics) const override { return 1.0F; }
+};
+
+TEST(Tiles, CoverTheTriangleInCongruentParts) {
+  for (std::uint32_t n = 1; n <= 9; ++n) {
+    double area = 0.0;
+    for (std::uint32_t tile = 0; tile < n * n; ++tile) {
+      EXPECT_NEAR(area_of(tile_part(n, tile)), 0.5 / (n * n), 1e-7) << n << ", " << tile;
+      EXPECT_TRUE(holds({}, middle_of(tile_part(n, tile))));
+      area += area_of(tile_part(n, tile));
+    }
+    EXPECT_NEAR(area, 0.5, 1e-6) << n;
+  }
+}
+
+TEST(Tiles, AreFoundFromTheirMiddle) {
+  for (std::uint32_t n = 1; n <= 9; ++n) {
+    for (std::uint32_t tile = 0; tile < n * n; ++tile) EXPECT_EQ(tile_at(n, middle_of(tile_part(n, tile))), tile) << n;
+  }
+}
+
+TEST(Tiles, HoldThePointsTheyAreFoundFrom) {
+  std::mt19937 generator(1);
+  const auto random = [&] { return static_cast<float>(generator() >> 8U) * 0x1p-24F; };
+  for (std::uint32_t n = 1; n <= 9; ++n) {
+    for (int k = 0; k < 2000; ++k) {
+      Barycentrics at(random(), random());
+      if (at.x + at.y > 1.0F) at = 1.0F - at;
+      EXPECT_TRUE(holds(tile_part(n, tile_at(n, at)), at)) << n << ": " << at.x << ", " << at.y;
+    }
+  }
+}
+
+TEST(Tiles, AreFoundAtCornersAndALittleOutside) {
+  for (std::uint32_t n = 1; n <= 9; ++n) {
+    for (const Barycentrics at : {Barycentrics(0, 0),
+                                  {1, 0},
+                                  {0, 1},
+                                  {0.5F, 0.5F},
+                                  {1.0001F, 0.0001F},
+                                  {-1e-5F, 0.5F},
+                                  {0.5F, -1e-5F},
+                                  {0.3F, 0.70001F}}) {
+      EXPECT_LT(tile_at(n, at), n * n) << at.x << ", " << at.y;
+    }
+  }
+}
+
+TEST(Patches, CoverTheArea) {
+  for (const auto& [name, scene] : scenes()) {
+    const Patches patches = patches_of(scene, 500);
+    EXPECT_NEAR(sum(patches.area) / sending_area(scene), 1.0, 1e-5) << name;
+    for (const float area : patches.area) EXPECT_GT(area, 0.0F) << name;
+  }
+}
+
+TEST(Patches, KeepBelowTheirLimit) {
+  for (const auto& [name, scene] : scenes()) {
+    for (const int most : {60, 500, 3000}) {
+      const std::uint32_t count = patches_of(scene, most).patch_count();
+      EXPECT_LE(count, static_cast<std::uint32_t>(most)) << name;
+      EXPECT_GE(count, static_cast<std::uint32_t>(most) / 4) << name;
+    }
+  }
+}
+
+TEST(Patches, GroupADenseMesh) {
+  const Scene coarse = test::box_room({2, 1, 3}, {});
+  const auto coarse_count = static_cast<double>(patches_of(coarse, 600).patch_count());
+  const auto dense_count = static_cast<double>(patches_of(test::tessellated(coarse, 64), 600).patch_count());
+  EXPECT_NEAR(dense_count / coarse_count, 1.0, 0.25);  // 1.18: cells cut by the room's edges hold small tiles only
+}
+
+TEST(Patches, AreAboutAsLargeAsTheGridsCells) {
+  const Patches patches = patches_of(test::box_room({2, 1, 3}, {}), 600);
+  for (const float area : patches.area) EXPECT_LE(area, 1.5F * patches.size * patches.size * 1.5F);
+}
+
+TEST(Patches, LieOnBothSidesOfATwoSidedSurface) {
+  Scene scene = test::parallel_squares(1.0F);
+  const std::uint32_t one_sided_count = patches_of(scene, 100).patch_count();
+  for (Surface& surface : scene.surfaces) surface.two_sided = true;
+  const Patches patches = patches_of(scene, 10'000);
+  const std::set<std::uint32_t> fronts(patches.patch_of_tile.begin(), patches.patch_of_tile.end());
+  const std::set<std::uint32_t> backs(patches.back_patch_of_tile.begin(), patches.back_patch_of_tile.end());
+  EXPECT_GT(one_sided_count, 0U);
+  EXPECT_EQ(fronts.size(), backs.size());
+  EXPECT_EQ(fronts.size() + backs.size(), patches.patch_count());
+  for (const std::uint32_t front : fronts) EXPECT_FALSE(backs.contains(front));
+}
+
+TEST(Patches, LeaveTheBackOfAOneSidedSurfaceDark) {
+  const Patches patches = patches_of(test::cornell_box(), 200);
+  EXPECT_EQ(patches.patch_at(0, {0.3F, 0.3F}, true), kNothing);
+  EXPECT_NE(patches.patch_at(0, {0.3F, 0.3F}, false), kNothing);
+}
+
+TEST(Patches, HoldTheirPoints) {
+  for (const auto& [name, scene] : scenes()) {
+    const Patches patches = patches_of(scene, 300);
+    for (std::uint32_t p = 0; p < patches.patch_count(); ++p) {
+      for (const SurfacePoint& point : patches.points_of(p)) {
+        const auto [triangle, at] = find(scene, point);
+        ASSERT_NE(triangle, kNothing) << name;
+        EXPECT_TRUE(patches.patch_at(triangle, at, false) == p || patches.patch_at(triangle, at, true) == p) << name;
+      }
+    }
+  }
+}
+
+TEST(Patches, LookToTheirSide) {
+  for (const auto& [name, scene] : scenes()) {
+    const Patches patches = patches_of(scene, 300);
+    for (std::uint32_t p = 0; p < patches.patch_count(); ++p) {
+      for (const SurfacePoint& point : patches.points_of(p)) {
+        const auto [triangle, at] = find(scene, point);
+        ASSERT_NE(triangle, kNothing) << name;
+        const bool back = glm::dot(point.normal, scaled_normal(scene, triangle)) < 0.0F;
+        EXPECT_EQ(patches.patch_at(triangle, at, back), p) << name;
+        EXPECT_NEAR(glm::length(point.normal), 1.0F, 1e-5F) << name;
+      }
+    }
+  }
+}
+
+TEST(Patches, KeepSurfacesAndDirectionsApart) {
+  const Scene scene = test::unit_cube_faces();
+  const Patches patches = patches_of(scene, 200);
+  std::vector<std::uint32_t> surface_of_patch(patches.patch_count(), kNothing);
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+    for (std::uint32_t k = patches.first_tile_of_triangle[t]; k < patches.first_tile_of_triangle[t + 1]; ++k) {
+      std::uint32_t& surface = surface_of_patch[patches.patch_of_tile[k]];
+      if (surface == kNothing) surface = scene.surface_of_triangle[t];
+      EXPECT_EQ(surface, scene.surface_of_triangle[t]);
+    }
+  }
+}
+
+TEST(Patches, AverageWhatVaries) {
+  const Ramp ramp;
+  Scene scene = test::parallel_squares(1.0F);
+  scene.surfaces[1].varies = true;
+  scene.detail = &ramp;
+  const Patches patches = patches_of(scene, 200);
+  double reflected = 0.0;
+  for (std::uint32_t p = 0; p < patches.patch_count(); ++p)
+    reflected += double{patches.area[p] * patches.reflectance[p].x};
+  EXPECT_NEAR(reflected, 1.0 / 3.0, 1e-4);  // the mean of a coordinate over a triangle; square 0 is black
+}
+
+TEST(Patches, KeepReflectanceBelowTheLimitAndSaySo) {
+  const Patches white = patches_of(test::white_furnace(1.0F, 1.0F), 100);
+  for (const Rgb& reflectance : white.reflectance) EXPECT_LE(reflectance.y, kMaxReflectance);
+  EXPECT_NEAR(white.reflectance_clamped_area, 6.0, 1e-4);
+  EXPECT_EQ(patches_of(test::white_furnace(0.9F, 1.0F), 100).reflectance_clamped_area, 0.0);
+}
+
+TEST(Patches, SetLampsApart) {
+  const Scene scene = test::cornell_box();
+  const Patches patches = patches_of(scene, 1000);
+  double area = 0.0;
+  for (const EmissiveTile& lamp : patches.lamps) {
+    EXPECT_EQ(lamp.luminance, Rgb(17.0F, 12.0F, 4.0F));
+    const glm::vec3 scaled = glm::cross(lamp.corner[1] - lamp.corner[0], lamp.corner[2] - lamp.corner[0]);
+    EXPECT_LT(scaled.y, 0.0F);
+    area += 0.5 * double{glm::length(scaled)};
+  }
+  EXPECT_NEAR(area, 0.13 * 0.105, 1e-6);
+  for (const Rgb& glow : patches.glow) EXPECT_EQ(glow, Rgb(0.0F));
+}
+
+TEST(Patches, LoseNoFluxWhenThereAreMoreTilesThanLamps) {
+  const Ramp ramp;
+  Scene scene = test::white_furnace(0.5F, 1.0F);
+  scene.surfaces[0].varies = true;
+  scene.detail = &ramp;
+  const Patches patches = patches_of(scene, 9000);
+  ASSERT_EQ(patches.lamps.size(), kMaxLamps);
+
+  double lamps = 0.0, remainder = 0.0;
+  for (const EmissiveTile& lamp : patches.lamps) {
+    const glm::vec3 scaled = glm::cross(lamp.corner[1] - lamp.corner[0], lamp.corner[2] - lamp.corner[0]);
+    lamps += 0.5 * double{glm::length(scaled) * lamp.luminance.y};
+  }
+  for (std::uint32_t p = 0; p < patches.patch_count(); ++p) remainder += double{patches.area[p] * patches.glow[p].y};
+  EXPECT_NEAR(lamps + remainder, 10.0 / 3.0 * 6.0, 1e-3);
+  const double share_of_tiles = double{kMaxLamps} / static_cast<double>(patches.patch_of_tile.size());
+  EXPECT_GT(lamps / (lamps + remainder), share_of_tiles);  // the brightest tiles were chosen
+}
+
+TEST(Patches, LeaveOutTrianglesWithoutArea) {
+  Scene scene = test::parallel_squares(1.0F);
+  scene.triangles.emplace_back(0, 0, 1);
+  scene.triangles.emplace_back(0, 1, 0);
+  scene.surface_of_triangle.insert(scene.surface_of_triangle.end(), 2, 0U);
+  const Patches patches = patches_of(scene, 100);
+  EXPECT_EQ(patches.degenerate_triangle_count, 2U);
+  EXPECT_EQ(patches.patch_at(4, {0.3F, 0.3F}, false), kNothing);
+  EXPECT_NEAR(sum(patches.area), 2.0, 1e-5);
+}
+
+TEST(Patches, AreNoneInASceneWithoutArea) {
+  EXPECT_EQ(patches_of({}, 100).patch_count(), 0U);
+  Scene scene = test::parallel_squares(1.0F);
+  for (glm::vec3& position : scene.positions) position = glm::vec3(1.0F);
+  const Patches patches = patches_of(scene, 100);
+  EXPECT_EQ(patches.patch_count(), 0U);
+  EXPECT_EQ(patches.degenerate_triangle_count, 4U);
+  EXPECT_EQ(patches.patch_at(0, {0.3F, 0.3F}, false), kNothing);
+}
+
+TEST(Patches, StopWhenCancelled) {
+  const Progress cancelled{.report = {}, .cancelled = [] { return true; }};
+  EXPECT_THROW(make_patches(test::cornell_box(), {}, cancelled), Cancelled);
+}
+
+}  // namespace
+}  // namespace radiosity
