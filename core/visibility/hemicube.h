@@ -12,18 +12,17 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <span>
 #include <vector>
-
-#include <glm/vec3.hpp>
 
 namespace radiosity {
 
 /// Where a hemicube stands and how it is turned.
 struct Viewpoint {
-  glm::vec3 position{0.0F};              ///< metres, already lifted off its surface (surface_offset())
-  glm::vec3 normal{0.0F, 0.0F, 1.0F};    ///< unit
-  float twist = 0.0F;                    ///< rotation about the normal, rad; against banding
+  glm::vec3 position{0.0F};            ///< metres, already lifted off its surface (surface_offset())
+  glm::vec3 normal{0.0F, 0.0F, 1.0F};  ///< unit
+  float twist = 0.0F;                  ///< rotation about the normal, rad; against banding
 };
 
 /// Right-handed axes at a viewpoint, `w` along the normal.
@@ -35,6 +34,10 @@ Frame frame(const Viewpoint& viewpoint);
 /// The k-th angle of a fixed low-discrepancy sequence over a quarter turn, rad (golden ratio; a hemicube has fourfold
 /// symmetry, so a quarter turn is all there is).
 float low_discrepancy_twist(std::uint32_t k);
+
+/// Delta form factors as the formula gives them, cell by cell, before Hemicube divides them by their sum: 1.0357 at
+/// 4 cells, 1.0021 at 16, 1.00013 at 64.
+std::vector<double> raw_delta_form_factors(int resolution);
 
 /// The cells of a hemicube `resolution` cells wide: the top face (resolution^2), then the +u, -u,
 /// +v and -v sides (resolution^2 / 2 each, rows counted up from the horizon).

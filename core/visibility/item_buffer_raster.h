@@ -8,6 +8,7 @@
 // (docs/benchmarks.md says where it stops paying). It shares nothing with Embree, which makes it the check on it.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 #include "core/visibility/item_buffer.h"
@@ -16,5 +17,8 @@ namespace radiosity {
 
 /// `scene` must outlive the maker.
 std::unique_ptr<ItemBufferMaker> make_item_buffer_raster(const Scene& scene);
+
+/// Whether this maker beats item_buffer_rays.h in a scene of so many triangles (measured: docs/benchmarks.md).
+bool raster_is_faster(std::size_t triangle_count);
 
 }  // namespace radiosity

@@ -13,7 +13,7 @@ namespace radiosity {
 /// their opacity at each hit.
 class RayScene {
  public:
-  /// Throws std::bad_alloc if memory runs out. `threads`: how many build it; 0 means all.
+  /// Throws std::bad_alloc if memory runs out. Built by the threads TBB lends; the result does not depend on how many.
   explicit RayScene(const Scene& scene);
   ~RayScene();
   RayScene(const RayScene&) = delete;
