@@ -15,6 +15,10 @@ using OpenMesh::FaceHandle;
 using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
 
+/// Triangles that OpenMesh joins at one vertex at most; more are entered on vertices of their own. It walks around a
+/// vertex for each triangle it adds there: 20 000 in a fan, in any order, took 6 s, and take 0.1 s so.
+constexpr std::uint32_t kMostJoinedAtVertex = 256;
+
 /// The corner at the end of a halfedge, as the triangle left of the halfedge knows it.
 struct Corner {
   std::uint32_t vertex = kNothing;
@@ -52,14 +56,16 @@ struct OpenMeshBridge::Net {
   OpenMesh::FPropHandleT<std::uint32_t> triangle;
   OpenMesh::VPropHandleT<std::uint32_t> position_class;
   std::vector<std::uint32_t> vertices_in_class;
+  std::vector<std::uint32_t> joined_at_vertex;  ///< triangles entered so far
   std::size_t triangle_count = 0;
 
   /// Since the round began: edges that run inside a triangle from an old vertex to a midpoint, one per cut triangle.
   std::vector<EdgeHandle> cuts;
   std::uint32_t first_midpoint = 0;
 
-  VertexHandle add_vertex(std::uint32_t its_class, const Mesh::Point& at) {
-    const VertexHandle vertex = mesh.add_vertex(at);
+  /// `at` comes by value: it may be a point of this mesh, whose points move when one is added.
+  VertexHandle add_vertex(std::uint32_t its_class, Mesh::Point at) {
+    const VertexHandle vertex(mesh.add_vertex(at).idx());
     mesh.property(position_class, vertex) = its_class;
     vertices_in_class.resize(std::max<std::size_t>(vertices_in_class.size(), its_class + std::size_t{1}));
     ++vertices_in_class[its_class];
@@ -73,12 +79,21 @@ struct OpenMeshBridge::Net {
     if (a == b || b == c || c == a) {
       return FaceHandle();
     }
+    for (const VertexHandle vertex : corners) {
+      if (joined_at_vertex[number_of(vertex)] >= kMostJoinedAtVertex) {
+        return FaceHandle();
+      }
+    }
     // Two triangles back to back would be a closed surface to OpenMesh, but one in which edges cannot be turned.
-    const HalfedgeHandle back = mesh.find_halfedge(b, a);
-    if (back.is_valid() && !mesh.is_boundary(back) && mesh.to_vertex_handle(mesh.next_halfedge_handle(back)) == c) {
+    const auto back = mesh.find_halfedge(b, a);
+    if (back.is_valid() && !back.is_boundary() && back.next().to() == c) {
       return FaceHandle();
     }
-    return mesh.add_face(a, b, c);
+    const FaceHandle face(mesh.add_face(a, b, c).idx());
+    for (const VertexHandle vertex : corners) {
+      joined_at_vertex[number_of(vertex)] += face.is_valid() ? 1U : 0U;
+    }
+    return face;
   }
 
   void add_triangle(const std::array<VertexHandle, 3>& joined, std::uint32_t number, const glm::uvec3& vertices) {
@@ -88,7 +103,7 @@ struct OpenMeshBridge::Net {
       for (std::size_t i = 0; i < 3; ++i) {
         own[i] = add_vertex(mesh.property(position_class, joined[i]), mesh.point(joined[i]));
       }
-      face = mesh.add_face(own[0], own[1], own[2]);
+      face = FaceHandle(mesh.add_face(own[0], own[1], own[2]).idx());
     }
     mesh.property(triangle, face) = number;
 
@@ -155,6 +170,7 @@ OpenMeshBridge::OpenMeshBridge(std::span<const glm::uvec3> triangles, std::span<
   for (std::uint32_t i = 0; i < position_of_class.size(); ++i) {
     net.add_vertex(i, point_of(position_of_class[i]));
   }
+  net.joined_at_vertex.assign(position_of_class.size(), 0);
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     std::array<VertexHandle, 3> joined;
     for (int c = 0; c < 3; ++c) {
@@ -162,6 +178,7 @@ OpenMeshBridge::OpenMeshBridge(std::span<const glm::uvec3> triangles, std::span<
     }
     net.add_triangle(joined, i, triangles[i]);
   }
+  net.joined_at_vertex = {};
 }
 
 OpenMeshBridge::~OpenMeshBridge() = default;
@@ -186,15 +203,17 @@ bool OpenMeshBridge::may_have_copies(std::uint32_t edge) const {
   return net_->vertices_in_class[ends.x] > 1 || net_->vertices_in_class[ends.y] > 1;
 }
 
-EdgeSide OpenMeshBridge::side(std::uint32_t edge, int which) const {
+std::uint32_t OpenMeshBridge::triangle_at(std::uint32_t edge, unsigned int side) const {
   const Net& net = *net_;
-  const HalfedgeHandle halfedge = net.mesh.halfedge_handle(edge_of(edge), static_cast<unsigned int>(which));
-  if (net.mesh.is_boundary(halfedge)) {
-    return {};
-  }
+  const FaceHandle face = net.mesh.face_handle(net.mesh.halfedge_handle(edge_of(edge), side));
+  return face.is_valid() ? net.mesh.property(net.triangle, face) : kNothing;
+}
+
+glm::uvec2 OpenMeshBridge::vertices_at(std::uint32_t edge, unsigned int side) const {
+  const Net& net = *net_;
+  const HalfedgeHandle halfedge = net.mesh.halfedge_handle(edge_of(edge), side);
   const HalfedgeHandle before = net.mesh.prev_halfedge_handle(halfedge);
-  return {.triangle = net.mesh.property(net.triangle, net.mesh.face_handle(halfedge)),
-          .ends = {net.mesh.property(net.corner, before).vertex, net.mesh.property(net.corner, halfedge).vertex}};
+  return {net.mesh.property(net.corner, before).vertex, net.mesh.property(net.corner, halfedge).vertex};
 }
 
 void OpenMeshBridge::begin_round(std::size_t edges, std::size_t sides) {

@@ -22,12 +22,6 @@
 
 namespace radiosity {
 
-/// One side of an edge: the triangle there.
-struct EdgeSide {
-  std::uint32_t triangle = kNothing;  ///< scene triangle; kNothing beyond a boundary
-  glm::uvec2 ends{kNothing};          ///< vertices of the refined mesh, as the triangle is wound
-};
-
 /// Triangles as an OpenMesh mesh. Edges keep their numbers; new ones are added behind.
 class OpenMeshBridge {
  public:
@@ -45,8 +39,11 @@ class OpenMeshBridge {
   glm::uvec2 end_classes(std::uint32_t edge) const;
   /// False if `edge` certainly has no copies.
   bool may_have_copies(std::uint32_t edge) const;
-  /// `which` is 0 or 1; at least one of the two sides has a triangle.
-  EdgeSide side(std::uint32_t edge, int which) const;
+  /// The scene triangle on a side (0 or 1) of `edge`; kNothing beyond a boundary, which is on one side at most.
+  std::uint32_t triangle_at(std::uint32_t edge, unsigned int side) const;
+  /// How the triangle on a side names the ends of `edge`: vertices of the refined mesh, as the triangle is wound.
+  /// REQUIRES: there is one.
+  glm::uvec2 vertices_at(std::uint32_t edge, unsigned int side) const;
 
   /// Opens a round in which `edges` edges, `sides` triangles at them counted, will be halved.
   void begin_round(std::size_t edges, std::size_t sides);

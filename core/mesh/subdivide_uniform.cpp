@@ -72,10 +72,11 @@ class Subdivider {
   }
   bool asks(std::uint32_t triangle, const glm::uvec2& end_classes) const;
   bool can_be_halved(const glm::uvec2& end_classes) const;
+  void report_at(std::uint32_t edge, double from, double to) const;
+  void mark(std::uint32_t edge);
   void mark_asked_edges();
   void mark_copies();
-  std::size_t count_marked_sides() const;
-  void halve_marked_edges(std::size_t side_count);
+  void halve_marked_edges();
   std::uint32_t add_midpoint(const glm::uvec2& ends);
   std::array<std::uint32_t, 2> midpoint_of_sides(std::uint32_t edge);
   double rounds_left() const;
@@ -92,6 +93,7 @@ class Subdivider {
   double progress_after_round_ = 0.0;
   std::vector<bool> is_marked_;                                        ///< [edge_count], this round
   std::size_t marked_count_ = 0;                                       ///< this round
+  std::size_t marked_side_count_ = 0;                                  ///< triangles at marked edges, this round
   std::unordered_map<std::uint64_t, std::uint32_t> midpoint_of_pair_;  ///< this round, where edges may have copies
 };
 
@@ -125,17 +127,31 @@ bool Subdivider::can_be_halved(const glm::uvec2& end_classes) const {
   return middle != a && middle != b;
 }
 
+/// Reports now and then while `edge` runs through all edges.
+void Subdivider::report_at(std::uint32_t edge, double from, double to) const {
+  if (edge % kEdgesPerUpdate == 0) {
+    progress_.update("subdivide",
+                     std::lerp(from, to, static_cast<double>(edge) / static_cast<double>(is_marked_.size())));
+  }
+}
+
+void Subdivider::mark(std::uint32_t edge) {
+  is_marked_[edge] = true;
+  ++marked_count_;
+  marked_side_count_ += bridge_.triangle_at(edge, 0) != kNothing ? 1U : 0U;
+  marked_side_count_ += bridge_.triangle_at(edge, 1) != kNothing ? 1U : 0U;
+}
+
 void Subdivider::mark_asked_edges() {
   is_marked_.assign(bridge_.edge_count(), false);
   marked_count_ = 0;
+  marked_side_count_ = 0;
   for (std::uint32_t edge = 0; edge < is_marked_.size(); ++edge) {
+    report_at(edge, progress_before_round_, progress_before_round_);
     const glm::uvec2 ends = bridge_.end_classes(edge);
-    if (!asks(bridge_.side(edge, 0).triangle, ends) && !asks(bridge_.side(edge, 1).triangle, ends)) {
-      continue;
-    }
-    if (can_be_halved(ends)) {
-      is_marked_[edge] = true;
-      ++marked_count_;
+    const bool is_asked_for = asks(bridge_.triangle_at(edge, 0), ends) || asks(bridge_.triangle_at(edge, 1), ends);
+    if (is_asked_for && can_be_halved(ends)) {
+      mark(edge);
     }
   }
 }
@@ -144,6 +160,7 @@ void Subdivider::mark_copies() {
   // Which pairs of ends are to be halved, of those edges that may have copies.
   std::unordered_set<std::uint64_t> marked_pairs;
   for (std::uint32_t edge = 0; edge < is_marked_.size(); ++edge) {
+    report_at(edge, progress_before_round_, progress_before_round_);
     if (is_marked_[edge] && bridge_.may_have_copies(edge)) {
       marked_pairs.insert(pair_key(bridge_.end_classes(edge)));
     }
@@ -154,29 +171,18 @@ void Subdivider::mark_copies() {
 
   // All edges between them.
   for (std::uint32_t edge = 0; edge < is_marked_.size(); ++edge) {
+    report_at(edge, progress_before_round_, progress_before_round_);
     if (!is_marked_[edge] && bridge_.may_have_copies(edge) &&
         marked_pairs.contains(pair_key(bridge_.end_classes(edge)))) {
-      is_marked_[edge] = true;
-      ++marked_count_;
+      mark(edge);
     }
   }
-}
-
-std::size_t Subdivider::count_marked_sides() const {
-  std::size_t count = 0;
-  for (std::uint32_t edge = 0; edge < is_marked_.size(); ++edge) {
-    if (is_marked_[edge]) {
-      count += bridge_.side(edge, 0).triangle != kNothing ? 1U : 0U;
-      count += bridge_.side(edge, 1).triangle != kNothing ? 1U : 0U;
-    }
-  }
-  return count;
 }
 
 std::uint32_t Subdivider::add_midpoint(const glm::uvec2& ends) {
   RefinedMesh& mesh = result_.mesh;
   const auto vertex = static_cast<std::uint32_t>(mesh.positions.size());
-  mesh.midpoints.push_back(ends);
+  mesh.midpoints.emplace_back(std::min(ends.x, ends.y), std::max(ends.x, ends.y));
   mesh.positions.push_back(midpoint(mesh.positions[ends.x], mesh.positions[ends.y]));
   mesh.normals.push_back(mid_normal(mesh.normals[ends.x], mesh.normals[ends.y]));
   return vertex;
@@ -185,35 +191,34 @@ std::uint32_t Subdivider::add_midpoint(const glm::uvec2& ends) {
 /// One midpoint for each pair of vertices that ends this edge or a copy of it.
 std::array<std::uint32_t, 2> Subdivider::midpoint_of_sides(std::uint32_t edge) {
   const bool may_have_copies = bridge_.may_have_copies(edge);
-  std::array<glm::uvec2, 2> ends;
+  std::array<std::uint64_t, 2> pair{};
   std::array<std::uint32_t, 2> vertex{kNothing, kNothing};
-  for (std::size_t i = 0; i < 2; ++i) {
-    const EdgeSide side = bridge_.side(edge, static_cast<int>(i));
-    ends[i] = {std::min(side.ends.x, side.ends.y), std::max(side.ends.x, side.ends.y)};
-    if (side.triangle == kNothing) {
+  for (unsigned int side = 0; side < 2; ++side) {
+    if (bridge_.triangle_at(edge, side) == kNothing) {
       continue;
     }
+    const glm::uvec2 ends = bridge_.vertices_at(edge, side);
+    pair[side] = pair_key(ends);
     if (may_have_copies) {
-      const auto [found, is_new] = midpoint_of_pair_.try_emplace(pair_key(ends[i]), kNothing);
+      const auto [found, is_new] = midpoint_of_pair_.try_emplace(pair[side], kNothing);
       if (is_new) {
-        found->second = add_midpoint(ends[i]);
+        found->second = add_midpoint(ends);
       }
-      vertex[i] = found->second;
+      vertex[side] = found->second;
+    } else if (side == 1 && vertex[0] != kNothing && pair[1] == pair[0]) {
+      vertex[1] = vertex[0];
     } else {
-      vertex[i] = i == 1 && ends[1] == ends[0] ? vertex[0] : add_midpoint(ends[i]);
+      vertex[side] = add_midpoint(ends);
     }
   }
   return vertex;
 }
 
-void Subdivider::halve_marked_edges(std::size_t side_count) {
+void Subdivider::halve_marked_edges() {
   midpoint_of_pair_.clear();
-  bridge_.begin_round(marked_count_, side_count);
+  bridge_.begin_round(marked_count_, marked_side_count_);
   for (std::uint32_t edge = 0; edge < is_marked_.size(); ++edge) {
-    if (edge % kEdgesPerUpdate == 0) {
-      const double done = static_cast<double>(edge) / static_cast<double>(is_marked_.size());
-      progress_.update("subdivide", std::lerp(progress_before_round_, progress_after_round_, done));
-    }
+    report_at(edge, progress_before_round_, progress_after_round_);
     if (is_marked_[edge]) {
       const glm::uvec2 ends = bridge_.end_classes(edge);
       const glm::vec3 middle = midpoint(welder_.positions()[ends.x], welder_.positions()[ends.y]);
@@ -253,12 +258,11 @@ Subdivision Subdivider::run() {
       break;
     }
     mark_copies();
-    const std::size_t side_count = count_marked_sides();
-    if (bridge_.face_count() + side_count > max_elements) {
+    if (bridge_.face_count() + marked_side_count_ > max_elements) {
       result_.reached_limit = true;
       break;
     }
-    halve_marked_edges(side_count);
+    halve_marked_edges();
   }
   if (round_ > 0) {
     bridge_.write_elements(result_.mesh);

@@ -368,6 +368,23 @@ TEST(SubdivideUniform, TrianglesBackToBackAreCutAlike) {
   EXPECT_EQ(find_t_vertex(mesh), "");
 }
 
+TEST(SubdivideUniform, AFanOfAnySizeConforms) {
+  // More triangles at one vertex than are joined there.
+  constexpr std::uint32_t kCount = 600;
+  Scene scene = scene_of({{0, 0, 0}}, {});
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    const float angle = 6.2831853F * static_cast<float>(i) / static_cast<float>(kCount);
+    scene.positions.emplace_back(std::cos(angle), std::sin(angle), 0.0F);
+    scene.triangles.emplace_back(0, 1 + i, 1 + (i + 1) % kCount);
+  }
+  scene.normals.assign(scene.positions.size(), glm::vec3(0.0F));
+  scene.surface_of_triangle.assign(kCount, 0);
+  const RefinedMesh mesh = cut_to_levels(scene, std::vector<std::int8_t>(kCount, 1)).mesh;
+  EXPECT_EQ(mesh.elements.size(), 4U * kCount);
+  EXPECT_EQ(mesh.midpoints.size(), 2U * kCount) << "one for each edge";
+  expect_conforming(scene, mesh);
+}
+
 TEST(SubdivideUniform, DegenerateTrianglesSurvive) {
   // Repeated vertices, repeated positions, three points on a line; beside a sound triangle.
   const Scene scene = scene_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {2, 0, 0}},
@@ -406,11 +423,11 @@ TEST(SubdivideUniform, HalvesOfALongEdgeJoinTheShortEdgesAlongIt) {
 TEST(SubdivideUniform, EndsBeforeARoundThatWouldExceedTheLimit) {
   const Scene scene = test::box_room({1, 1, 1}, Surface{});
   const std::vector<std::int8_t> levels(12, 5);
-  const Subdivision result = subdivide_uniform(scene, {.level_of_triangle = levels, .max_elements = 12 * 64 + 5}, {});
+  const Subdivision result = subdivide_uniform(scene, {.level_of_triangle = levels, .max_elements = 773}, {});
   EXPECT_TRUE(result.reached_limit);
   EXPECT_EQ(result.mesh.elements.size(), 12U * 64U);
   expect_conforming(scene, result.mesh);
-  EXPECT_FALSE(subdivide_uniform(scene, {.level_of_triangle = levels, .max_elements = 12 * 1024}, {}).reached_limit);
+  EXPECT_FALSE(subdivide_uniform(scene, {.level_of_triangle = levels, .max_elements = 12'288}, {}).reached_limit);
 }
 
 TEST(SubdivideUniform, ShadingNormalsStayUnitOrZero) {

@@ -48,7 +48,8 @@ TEST(Weld, FindsEveryClassOfALargeGridStoredTwice) {
   std::vector<glm::vec3> positions;
   for (int copy = 0; copy < 2; ++copy) {
     for (int i = 0; i < 100'000; ++i) {
-      positions.emplace_back(static_cast<float>(i % 316) * 0.01F, 0.0F, static_cast<float>(i / 316) * 0.01F);
+      const int row = i / 316;
+      positions.emplace_back(static_cast<float>(i % 316) * 0.01F, 0.0F, static_cast<float>(row) * 0.01F);
     }
   }
   const Weld result = weld(positions);
