@@ -1,6 +1,7 @@
 #include "plugin/pending_files.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -52,8 +53,8 @@ class Descriptor {
 int create_beside(const fs::path& target, fs::path& temporary, int& descriptor) {
   static std::atomic<unsigned> counter{0};
   do {
-    const std::string suffix = ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
-    temporary = target.parent_path() / ("." + target.filename().string().substr(0, 200) + suffix);
+    const std::string name = target.filename().string().substr(0, 200);
+    temporary = target.parent_path() / fmt::format(".{}.tmp-{}-{}", name, ::getpid(), counter++);
     descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   } while (descriptor < 0 && errno == EEXIST);
   return descriptor < 0 ? errno : 0;
