@@ -316,8 +316,8 @@ class Checker {
       if (const Json* pbr = object_in(material, "pbrMetallicRoughness", place)) {
         numbers(*pbr, "baseColorFactor", 4, place);
         number_if_present(*pbr, "metallicFactor", place);
-        check_texture_info(*pbr, "baseColorTexture", place);
-        check_texture_info(*pbr, "metallicRoughnessTexture", place);
+        check_texture_info(*pbr, "baseColorTexture", place + ".pbrMetallicRoughness");
+        check_texture_info(*pbr, "metallicRoughnessTexture", place + ".pbrMetallicRoughness");
       }
       if (error_) return;
       const Json* strength = extension_of(material, "KHR_materials_emissive_strength");
