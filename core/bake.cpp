@@ -90,7 +90,7 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
   // Reconstruction: light at elements, then at vertices. Elements average over their neighbours' hemicubes, so theirs
   // are half as wide.
   const Hemicube element_hemicube(std::max(2, options.hemicube_resolution / 4 * 2));
-  const Gatherer gatherer{scene, patches, element_hemicube, *items, direct_light, solution.radiosity};
+  const Gatherer gatherer{scene, patches, element_hemicube, *items, direct_light, solution.radiosity, surface_offset(scene)};
   const ElementLight light = gather_elements(result.mesh, gatherer, progress);
   result.irradiance = interpolate_vertices(result.mesh, light);
 

@@ -34,6 +34,7 @@ struct EmissiveTile {
   glm::vec3 corner[3];  ///< metres, counter-clockwise seen from the front
   Rgb luminance{0.0F};  ///< mean over the tile, cd/m2
   bool two_sided = false;
+  std::uint32_t patch = kNothing;  ///< of its front
 };
 
 struct PatchOptions {
@@ -56,7 +57,7 @@ struct Patches {
   std::vector<SurfacePoint> points;  ///< [patch_count() * points_per_patch]
   int points_per_patch = 0;
 
-  /// What emits, as far as it is worth shadow rays: the tiles with most flux, at most kMaxLamps, in scene order.
+  /// What emits, as far as it is worth shadow rays: the tiles with most flux, at most kMaxLamps, ordered by patch.
   /// Patches keep the emission of the remaining tiles as `glow`, which hemicubes see.
   std::vector<EmissiveTile> lamps;
 

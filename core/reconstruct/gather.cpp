@@ -74,7 +74,6 @@ std::optional<Rgb> gather_element(const RefinedMesh& mesh, const Gatherer& gathe
 
 Gathered Gatherer::at(const SurfacePoint& point, std::uint32_t index) const {
   thread_local ItemBuffer buffer;
-  const float offset = surface_offset(scene);
   items.fill(hemicube, {point.position + offset * point.normal, point.normal, low_discrepancy_twist(index)}, buffer);
 
   // What each cell sees, by how much it counts.

@@ -21,15 +21,6 @@ float shift(std::uint32_t index, std::uint32_t salt) {
   return static_cast<float>(h >> 8U) * 0x1p-24F;
 }
 
-/// A ray to a place on a lamp; `at` in the unit square is folded into the triangle.
-ShadowRay ray_to_lamp(const EmissiveTile& lamp, glm::vec2 at, const glm::vec3& from, float offset) {
-  if (at.x + at.y > 1.0F) at = 1.0F - at;
-  const glm::vec3 target =
-      lamp.corner[0] + at.x * (lamp.corner[1] - lamp.corner[0]) + at.y * (lamp.corner[2] - lamp.corner[0]);
-  const float distance = std::max(glm::distance(target, from), 1e-20F);
-  return {from, (target - from) / distance, std::max(0.0F, distance * (1.0F - 1e-4F) - 2.0F * offset), 0.0F};
-}
-
 /// How much of a light's intensity remains at a distance, as KHR_lights_punctual defines it (1/m2).
 float attenuation(const Light& light, float distance) {
   float share = 1.0F;
@@ -74,7 +65,10 @@ struct Scratch {
 }  // namespace
 
 DirectLight::DirectLight(const RayScene& rays, const Patches& patches, const DirectLightOptions& options)
-    : rays_(rays), lamps_(patches.lamps), options_(options), offset_(surface_offset(rays.scene())) {}
+    : rays_(rays),
+      lamps_(patches.lamps, surface_offset(rays.scene())),
+      options_(options),
+      offset_(surface_offset(rays.scene())) {}
 
 Rgb DirectLight::at(const SurfacePoint& point, std::uint32_t index) const {
   return from_lamps(point, index) + from_lights(point, index);
@@ -103,14 +97,16 @@ Rgb DirectLight::from_lamps(const SurfacePoint& point, std::uint32_t index) cons
     scratch.irradiance.push_back(chosen.irradiance);
   };
 
-  // Probes first. Where they disagree lies a penumbra: send the rest.
+  // Probes first, starting at any of the first few steps: always at step 0 they would favour the lamps that come first.
+  // Where they disagree lies a penumbra: send the rest.
   const int stride = std::max(1, options_.lamp_rays / options_.probe_rays);
-  for (int r = 0; r < options_.lamp_rays; r += stride) add_ray(r);
+  const int first_probe = static_cast<int>(shift(index, 5) * static_cast<float>(stride));
+  for (int r = first_probe; r < options_.lamp_rays; r += stride) add_ray(r);
   scratch.trace(rays_);
   const auto blocked_count = std::count(scratch.blocked.begin(), scratch.blocked.end(), std::uint8_t{1});
   if (blocked_count != 0 && blocked_count != std::ssize(scratch.blocked)) {
     for (int r = 0; r < options_.lamp_rays; ++r) {
-      if (r % stride != 0) add_ray(r);
+      if (r % stride != first_probe) add_ray(r);
     }
     scratch.trace(rays_);
   }

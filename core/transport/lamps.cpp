@@ -1,0 +1,198 @@
+#include "core/transport/lamps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "core/photometry.h"
+
+namespace radiosity {
+namespace {
+
+/// Beyond this many edge lengths a lamp counts as a point: 1/2 per cent wrong at most.
+constexpr float kPointLike = 6.0F;
+
+/// Beyond this many radii a group is weighed as a whole.
+constexpr float kFar = 6.0F;
+
+/// A polygon cut off at a horizon: a triangle keeps at most four corners.
+struct Polygon {
+  glm::vec3 corner[4];
+  int count = 0;
+};
+
+/// The part of a triangle above the plane through the origin. Sutherland and Hodgman, Reentrant Polygon Clipping, 1974.
+Polygon above_horizon(const glm::vec3 corner[3], const SurfacePoint& at) {
+  glm::vec3 relative[3];
+  float height[3];
+  for (int k = 0; k < 3; ++k) {
+    relative[k] = corner[k] - at.position;
+    height[k] = glm::dot(relative[k], at.normal);
+  }
+  Polygon polygon;
+  for (int k = 0; k < 3; ++k) {
+    const int next = (k + 1) % 3;
+    if (height[k] > 0.0F) polygon.corner[polygon.count++] = relative[k];
+    if ((height[k] > 0.0F) != (height[next] > 0.0F)) {
+      const float t = height[k] / (height[k] - height[next]);
+      polygon.corner[polygon.count++] = glm::mix(relative[k], relative[next], t);
+    }
+  }
+  return polygon;
+}
+
+glm::vec3 scaled_normal(const EmissiveTile& lamp) {
+  return 0.5F * glm::cross(lamp.corner[1] - lamp.corner[0], lamp.corner[2] - lamp.corner[0]);
+}
+
+glm::vec3 middle_of(const EmissiveTile& lamp) { return (lamp.corner[0] + lamp.corner[1] + lamp.corner[2]) / 3.0F; }
+
+double flux_of(const EmissiveTile& lamp) {
+  return double{glm::length(scaled_normal(lamp))} * double{luminance_of(lamp.luminance)};
+}
+
+/// Irradiance at unit luminance from a lamp so far off that it counts as a point.
+float point_like_irradiance(const EmissiveTile& lamp, const SurfacePoint& at) {
+  const glm::vec3 to_lamp = middle_of(lamp) - at.position;
+  const float d2 = glm::dot(to_lamp, to_lamp);
+  const float at_lamp = -glm::dot(scaled_normal(lamp), to_lamp), here = glm::dot(at.normal, to_lamp);
+  return here <= 0.0F ? 0.0F : at_lamp * here / (d2 * d2);
+}
+
+/// Whether a point lies in a lamp's plane, as the lamp's own points do. Rounding would decide whether it sees nothing
+/// of the lamp or, from the back of a two-sided one, nothing else.
+bool in_plane(const EmissiveTile& lamp, const glm::vec3& point, float tolerance) {
+  const glm::vec3 scaled = scaled_normal(lamp);
+  return std::abs(glm::dot(scaled, point - lamp.corner[0])) <= tolerance * glm::length(scaled);
+}
+
+/// A cosine as a group `spread` wide (radius over distance) may have it at most, going to 0 without a jump where all of
+/// the group is out of sight.
+float softened(float cosine, float spread) {
+  return cosine >= spread ? cosine : std::max(0.0F, 0.5F * (cosine + spread));
+}
+
+}  // namespace
+
+float triangle_irradiance(const glm::vec3 corner[3], const SurfacePoint& at) {
+  const Polygon polygon = above_horizon(corner, at);
+  if (polygon.count < 3) return 0.0F;
+
+  // Lambert: half the sum, over the edges, of the angle each spans times the cosine to its plane's normal.
+  double sum = 0.0;
+  for (int k = 0; k < polygon.count; ++k) {
+    const glm::dvec3 a = polygon.corner[k], b = polygon.corner[(k + 1) % polygon.count];
+    const glm::dvec3 normal = glm::cross(a, b);
+    const double sine = glm::length(normal);
+    if (sine > 0.0) sum += std::atan2(sine, glm::dot(a, b)) / sine * glm::dot(normal, glm::dvec3(at.normal));
+  }
+  return static_cast<float>(-0.5 * sum);
+}
+
+Lamps::Lamps(std::span<const EmissiveTile> tiles, float surface_offset)
+    : tiles_(tiles), surface_offset_(surface_offset) {
+  // Reach of each lamp.
+  reach2_.reserve(tiles.size());
+  for (const EmissiveTile& lamp : tiles) {
+    float longest = 0.0F;
+    for (int k = 0; k < 3; ++k) longest = std::max(longest, glm::distance(lamp.corner[k], lamp.corner[(k + 1) % 3]));
+    reach2_.push_back(kPointLike * kPointLike * longest * longest);
+  }
+
+  // One group per patch, and the running flux within each.
+  flux_until_.resize(tiles.size());
+  for (std::uint32_t first = 0; first < tiles.size();) {
+    std::uint32_t last = first;
+    double flux = 0.0;
+    for (; last < tiles.size() && tiles[last].patch == tiles[first].patch; ++last) {
+      flux += flux_of(tiles[last]);
+      flux_until_[last] = flux;
+    }
+    groups_.push_back(make_group(first, last - first));
+    first = last;
+  }
+}
+
+Lamps::Group Lamps::make_group(std::uint32_t first, std::uint32_t count) const {
+  glm::dvec3 middle(0.0), facing(0.0);
+  for (std::uint32_t k = first; k < first + count; ++k) {
+    middle += flux_of(tiles_[k]) * glm::dvec3(middle_of(tiles_[k]));
+    facing += double{luminance_of(tiles_[k].luminance)} * glm::dvec3(scaled_normal(tiles_[k]));
+  }
+  const double flux = flux_until_[first + count - 1];
+  Group group{first, count, glm::vec3(middle / flux), 0.0F, glm::vec3(facing / flux), flux, tiles_[first].two_sided};
+  for (std::uint32_t k = first; k < first + count; ++k) {
+    for (const glm::vec3& corner : tiles_[k].corner) {
+      group.radius = std::max(group.radius, glm::distance(group.middle, corner));
+    }
+  }
+  return group;
+}
+
+double Lamps::weight_of_far_group(const Group& group, const SurfacePoint& point) const {
+  const glm::vec3 apart = group.middle - point.position;
+  const float distance = glm::length(apart);
+  const glm::vec3 direction = apart / distance;
+  const float spread = group.radius / distance;
+  const float here = softened(glm::dot(point.normal, direction), spread);
+
+  // A curved group shows some of itself wherever it is seen from.
+  const float curvature = std::sqrt(std::max(0.0F, 1.0F - glm::dot(group.facing, group.facing)));
+  const float cosine = glm::dot(group.facing, -direction);
+  const float there = softened(group.two_sided ? std::abs(cosine) : cosine, spread + curvature);
+  return group.flux * double{here} * double{there} / double{distance * distance};
+}
+
+double Lamps::irradiance_of_lamp(std::uint32_t lamp, const SurfacePoint& point) const {
+  const EmissiveTile& tile = tiles_[lamp];
+  if (in_plane(tile, point.position, surface_offset_)) return 0.0;
+  const glm::vec3 apart = middle_of(tile) - point.position;
+  const float irradiance = glm::dot(apart, apart) > reach2_[lamp] ? point_like_irradiance(tile, point)
+                                                                  : triangle_irradiance(tile.corner, point);
+  return double{tile.two_sided ? std::abs(irradiance) : std::max(irradiance, 0.0F)};
+}
+
+void Lamps::weigh(const SurfacePoint& point, LampWeights& weights) const {
+  weights.entries.clear();
+  weights.total = 0.0;
+  const auto add = [&](double weight, std::uint32_t first, std::uint32_t count) {
+    if (!(weight > 0.0)) return;
+    weights.total += weight;
+    weights.entries.push_back({weights.total, first, count});
+  };
+  for (const Group& group : groups_) {
+    const glm::vec3 apart = group.middle - point.position;
+    if (group.count > 1 && glm::dot(apart, apart) > kFar * kFar * group.radius * group.radius) {
+      add(weight_of_far_group(group, point), group.first, group.count);
+      continue;
+    }
+    for (std::uint32_t k = group.first; k < group.first + group.count; ++k) {
+      add(irradiance_of_lamp(k, point) * double{luminance_of(tiles_[k].luminance)}, k, 1);
+    }
+  }
+}
+
+ChosenLamp Lamps::choose(const SurfacePoint& point, const LampWeights& weights, double along) const {
+  // The entry at this place of the sum of weights.
+  const double place = along * weights.total;
+  const auto entry = std::min(std::lower_bound(weights.entries.begin(), weights.entries.end(), place,
+                                               [](const auto& e, double p) { return e.until < p; }),
+                              weights.entries.end() - 1);
+  const double before = entry == weights.entries.begin() ? 0.0 : (entry - 1)->until;
+  const double weight = entry->until - before;
+  if (entry->count == 1) {
+    const Rgb& luminance = tiles_[entry->first].luminance;
+    return {entry->first, luminance * static_cast<float>(weights.total / double{luminance_of(luminance)})};
+  }
+
+  // Within a group, what is left of the place picks a lamp by flux.
+  const auto first = flux_until_.begin() + entry->first, last = first + entry->count;
+  const double flux = *(last - 1);
+  const auto found = std::min(std::lower_bound(first, last, (place - before) / weight * flux), last - 1);
+  const auto lamp = static_cast<std::uint32_t>(found - flux_until_.begin());
+  const double odds = weight / weights.total * flux_of(tiles_[lamp]) / flux;
+  return {lamp, tiles_[lamp].luminance * static_cast<float>(irradiance_of_lamp(lamp, point) / odds)};
+}
+
+}  // namespace radiosity
