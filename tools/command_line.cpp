@@ -104,8 +104,8 @@ void add_mesh_options(CLI::App& app, Options& options) {
              throw CLI::ValidationError("--subdivide", bad.what());
            }
          },
-         "Cut each triangle of the node NAME in four, LEVEL times (0 to 8), whatever --patch-size says; may be "
-         "repeated")
+         "Cut each triangle of the node NAME in four, LEVEL times (0 to 8), whatever --refine and "
+         "--patch-size say; may be repeated")
       ->type_name("NAME=LEVEL")
       ->default_str("none")
       ->allow_extra_args(false);
@@ -121,7 +121,8 @@ void add_light_options(CLI::App& app, Options& options) {
       ->join(',');
   add(app,
       {"--sun", "EL,AZ,LUX", "none",
-       "The sun: elevation 0 to 90 and azimuth -360 to 360 in degrees (it stands at (cos EL sin AZ, sin EL, cos EL cos "
+       "The sun: elevation -90 to 90 and azimuth -360 to 360 in degrees (it stands at (cos EL sin AZ, sin EL, cos EL "
+       "cos "
        "AZ), y up), and the lux it brings to a surface that faces it"},
       [&options](const std::string& text) { options.sun = parse_sun(text); })
       ->join(',');

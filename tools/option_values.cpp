@@ -71,7 +71,7 @@ std::pair<std::string, int> parse_subdivide(std::string_view text) {
 }
 
 Sun parse_sun(std::string_view text) {
-  const auto [elevation, azimuth, lux] = parse_triple(text, {Range{0.0, 90.0}, Range{-360.0, 360.0}, Range{}});
+  const auto [elevation, azimuth, lux] = parse_triple(text, {Range{-90.0, 90.0}, Range{-360.0, 360.0}, Range{}});
   return {elevation, azimuth, lux};
 }
 

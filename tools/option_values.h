@@ -40,7 +40,7 @@ std::array<double, 3> parse_triple(std::string_view text, const std::array<Range
 /// NAME=LEVEL, cut at the last equals sign because names may hold one; LEVEL in [0, 8].
 std::pair<std::string, int> parse_subdivide(std::string_view text);
 
-/// EL,AZ,LUX: elevation in [0, 90] and azimuth in [-360, 360] degrees, illuminance not negative.
+/// EL,AZ,LUX: elevation in [-90, 90] and azimuth in [-360, 360] degrees, illuminance not negative.
 Sun parse_sun(std::string_view text);
 
 /// The values an option chooses from, by name.
@@ -51,7 +51,10 @@ using Choices = std::array<std::pair<std::string_view, Value>, count>;
 template <typename Value, std::size_t count>
 std::string names_of(const Choices<Value, count>& choices) {
   std::string names;
-  for (const auto& choice : choices) names += (names.empty() ? "" : "|") + std::string(choice.first);
+  for (const auto& choice : choices) {
+    if (!names.empty()) names += '|';
+    names += choice.first;
+  }
   return names;
 }
 

@@ -1,0 +1,133 @@
+#include "tools/help_text.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "tools/command_line.h"
+
+namespace gltf_radiosity::tools {
+namespace {
+
+std::set<std::string> matches(const std::string& text, const std::string& pattern) {
+  std::set<std::string> found;
+  const std::regex expression(pattern);
+  for (auto match = std::sregex_iterator(text.begin(), text.end(), expression); match != std::sregex_iterator();
+       ++match) {
+    found.insert((*match)[1].str());
+  }
+  return found;
+}
+
+/// "--patch-size METRES|auto" for each option that --help describes.
+std::set<std::string> described_options(const std::string& help) {
+  return matches(help, "\n  (?:-h,)?(--[a-z0-9-]+(?: [^ \n]+)?) *(?:  |\n)");
+}
+
+/// What --help says about `option`, on one line.
+std::string description_of(const std::string& option) {
+  const std::string help = help_text();
+  const std::size_t begin = help.find("\n  " + option + " ");
+  if (begin == std::string::npos) return "no such option";
+  std::size_t end = help.find('\n', begin + 1);
+  while (end != std::string::npos && help.compare(end, 11, "\n          ") == 0) end = help.find('\n', end + 1);
+  return std::regex_replace(help.substr(begin, end - begin), std::regex("\\s+"), " ");
+}
+
+std::string documentation() {
+  std::ifstream file(PROJECT_SOURCE_DIR "/docs/command-line.md");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+TEST(HelpText, DescribesEveryOption) {
+  const std::set<std::string> names = matches(help_text(), "\n  (?:-h,)?(--[a-z0-9-]+)");
+  const std::set<std::string> expected = {
+      "--refine",   "--patch-size",  "--subdivide", "--sky",         "--sun",        "--no-default-sky",
+      "--metals",   "--quality",     "--hemicube",  "--max-patches", "--residual",   "--visibility",
+      "--solver",   "--threads",     "--exposure",  "--ev100",       "--color-type", "--json",
+      "--progress", "--light-units", "--config",    "--version",     "--help"};
+  EXPECT_EQ(names, expected);
+}
+
+TEST(HelpText, StatesTheDefaultsOfTheLibrary) {
+  const Options library;
+  const std::vector<std::pair<std::string, std::string>> expected = {
+      {"--refine", "uniform"},
+      {"--patch-size", "auto"},
+      {"--subdivide", "none"},
+      {"--sky", "none"},
+      {"--sun", "none"},
+      {"--no-default-sky", "off"},
+      {"--metals", "diffuse"},
+      {"--light-units", "auto"},
+      {"--quality", "medium"},
+      {"--hemicube", fmt::format("{}", library.hemicube)},
+      {"--max-patches", fmt::format("{}", library.max_patches)},
+      {"--residual", fmt::format("{}", library.residual)},
+      {"--visibility", "auto"},
+      {"--solver", "progressive"},
+      {"--threads", "0"},
+      {"--exposure", "auto"},
+      {"--ev100", "none"},
+      {"--color-type", "float"},
+      {"--json", "none"},
+      {"--progress", "auto"},
+      {"--config", "none"},
+  };
+  for (const auto& [option, preset] : expected) {
+    const std::string description = description_of(option);
+    EXPECT_NE(description.find("(default: " + preset + ")"), std::string::npos) << description;
+  }
+}
+
+TEST(HelpText, FitsAHundredColumns) {
+  std::istringstream lines(help_text());
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
+}
+
+TEST(HelpText, ItsExamplesAreAccepted) {
+  const std::set<std::string> examples = matches(help_text(), "\n  gltf-radiosity ([^\n]+)");
+  EXPECT_GE(examples.size(), 3U);
+  for (const std::string& example : examples) {
+    std::vector<std::string> words = {"gltf-radiosity"};
+    std::istringstream stream(example);
+    for (std::string word; stream >> word;) words.push_back(word);
+    std::vector<const char*> arguments;
+    for (const std::string& word : words) arguments.push_back(word.c_str());
+    EXPECT_TRUE(std::holds_alternative<CommandLine>(parse_command_line(arguments))) << example;
+  }
+}
+
+TEST(HelpText, AgreesWithTheDocumentation) {
+  const std::set<std::string> documented = matches(documentation(), "\n\\| `((?:--)[^`]+)` \\|");
+  std::set<std::string> unescaped;
+  for (const std::string& option : documented) unescaped.insert(std::regex_replace(option, std::regex("\\\\\\|"), "|"));
+  EXPECT_EQ(unescaped, described_options(help_text()));
+}
+
+TEST(HelpText, AgreesWithTheDocumentedDefaults) {
+  // | `--hemicube CELLS` | 32 | ...
+  const std::string text = documentation();
+  const std::regex row("\n\\| `(--[a-z0-9-]+)[^`]*` \\| ([^|]+) \\|");
+  std::size_t rows = 0;
+  for (auto match = std::sregex_iterator(text.begin(), text.end(), row); match != std::sregex_iterator();
+       ++match, ++rows) {
+    const std::string option = (*match)[1].str();
+    const std::string preset = (*match)[2].str();
+    if (option == "--help" || option == "--version") continue;
+    const std::string description = description_of(option);
+    EXPECT_NE(description.find("(default: " + preset + ")"), std::string::npos)
+        << preset << " is not in " << description;
+  }
+  EXPECT_EQ(rows, described_options(help_text()).size());
+}
+
+}  // namespace
+}  // namespace gltf_radiosity::tools
