@@ -18,7 +18,8 @@ namespace radiosity {
 /// `scene` must outlive the maker.
 std::unique_ptr<ItemBufferMaker> make_item_buffer_raster(const Scene& scene);
 
-/// Whether this maker beats item_buffer_rays.h in a scene of so many triangles (measured: docs/benchmarks.md).
-bool raster_is_faster(std::size_t triangle_count);
+/// Whether this maker beats item_buffer_rays.h in a scene of so many triangles with hemicubes `resolution` cells wide:
+/// its cost is in the triangles, that of rays in the cells (measured: docs/benchmarks.md).
+bool raster_is_faster(std::size_t triangle_count, int resolution = 32);
 
 }  // namespace radiosity

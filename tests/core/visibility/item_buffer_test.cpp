@@ -367,6 +367,15 @@ TEST_P(EachMaker, SeesThroughTheGapsOfAFence) {
   EXPECT_GT(at_fence, 300);
 }
 
+// ---- choice of the maker ----
+
+TEST(RasterIsFaster, InSmallScenesAndLongerWithFinerHemicubes) {
+  EXPECT_TRUE(raster_is_faster(12));
+  EXPECT_FALSE(raster_is_faster(100'000));
+  EXPECT_FALSE(raster_is_faster(2000, 16));
+  EXPECT_TRUE(raster_is_faster(2000, 128));
+}
+
 // ---- any number of threads ----
 
 bool same(const ItemBuffer& a, const ItemBuffer& b) {
