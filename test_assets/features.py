@@ -46,8 +46,8 @@ def mirrored_instance():
     grey = gltf.material("grey", (0.6, 0.6, 0.6))
     hook = box((0, 0, -0.2), (1, 0.2, 0.2), cells=(5, 1, 2)).add(box((0, 0.2, -0.2), (0.2, 0.8, 0.2), cells=(1, 3, 2)))
     mesh = gltf.mesh("hook", gltf.primitive(hook, grey))
-    gltf.node("right", mesh=mesh, translation=[0.5, 0.01, 0])
-    gltf.node("left", mesh=mesh, translation=[-0.5, 0.01, 0], scale=[-1, 1, 1])
+    gltf.node("right", mesh=mesh, translation=[0.5, 0.25, 0])
+    gltf.node("left", mesh=mesh, translation=[-0.5, 0.25, 0], scale=[-1, 1, 1])
     gltf.solid("floor", floor(-2, -1, 2, 1, cells=(16, 8)), grey)
     gltf.node("lamp", translation=[0, 1.5, 0.3], extensions=gltf.light("lamp", "point", 3))
     return gltf
