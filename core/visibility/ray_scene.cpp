@@ -1,7 +1,7 @@
 #include "core/visibility/ray_scene.h"
 
+#include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <new>
 
 #include "core/visibility/embree_scene.h"
@@ -40,7 +40,7 @@ Owned<RTCBuffer> copy_positions(RTCDevice device, const Scene& scene) {
   const std::size_t size = scene.positions.size() * sizeof(glm::vec3);
   Owned<RTCBuffer> buffer(rtcNewBuffer(device, size + sizeof(float)));
   throw_on_error(device);
-  std::memcpy(rtcGetBufferData(buffer.get()), scene.positions.data(), size);
+  std::copy(scene.positions.begin(), scene.positions.end(), static_cast<glm::vec3*>(rtcGetBufferData(buffer.get())));
   return buffer;
 }
 
