@@ -4,7 +4,6 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <glm/common.hpp>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -55,7 +54,7 @@ void balance(const Patches& patches, const SolveProblem& problem, const Solution
   for (std::uint32_t i = 0; i < patches.patch_count(); ++i) {
     const double area = patches.area[i];
     const Rgb exitance = exitance_of_luminance(patches.glow[i]);
-    const Rgb irradiance = (solution.radiosity[i] - exitance) / glm::max(patches.reflectance[i], Rgb(1e-6F));
+    const Rgb irradiance = problem.direct[i] + solution.irradiance[i];
     report.emitted_flux += area * double{luminance_of(problem.direct[i] + exitance)};
     report.absorbed_flux += area * double{luminance_of((1.0F - patches.reflectance[i]) * irradiance)};
     if (!rows.holds(i)) continue;
@@ -90,7 +89,8 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
   // Reconstruction: light at elements, then at vertices. Elements average over their neighbours' hemicubes, so theirs
   // are half as wide.
   const Hemicube element_hemicube(std::max(2, options.hemicube_resolution / 4 * 2));
-  const Gatherer gatherer{scene, patches, element_hemicube, *items, direct_light, solution.radiosity, surface_offset(scene)};
+  const Gatherer gatherer{
+      scene, patches, element_hemicube, *items, direct_light, solution.radiosity, surface_offset(scene)};
   const ElementLight light = gather_elements(result.mesh, gatherer, progress);
   result.irradiance = interpolate_vertices(result.mesh, light);
 

@@ -22,10 +22,11 @@ struct SolveProblem {
 };
 
 struct Solution {
-  std::vector<Rgb> radiosity;  ///< B_i, lamps' own exitance left out, [patch_count], lm/m2
-  float residual = 0.0F;       ///< share of the emitted flux still unshot (or the last sweep's change of it)
-  std::uint32_t steps = 0;     ///< shots, or patches gathered to
-  bool converged = false;      ///< false only where the step limit ended it
+  std::vector<Rgb> radiosity;   ///< B_i, lamps' own exitance left out, [patch_count], lm/m2
+  std::vector<Rgb> irradiance;  ///< what arrives from other patches, H_i left out, [patch_count], lx
+  float residual = 0.0F;        ///< share of the emitted flux still unshot (or the last sweep's change of it)
+  std::uint32_t steps = 0;      ///< shots, or patches gathered to
+  bool converged = false;       ///< false only where the step limit ended it
 };
 
 /// What patches send before light is exchanged: E_i + rho_i H_i, lm/m2, [patch_count].

@@ -20,7 +20,7 @@ Solution solve_gathering(const SolveProblem& problem, RowCache& rows, const Prog
   const Patches& patches = problem.patches;
   const std::uint32_t count = patches.patch_count();
   const std::vector<glm::dvec3> first = first_radiosity(problem);
-  std::vector<glm::dvec3> radiosity = first;
+  std::vector<glm::dvec3> radiosity = first, irradiance(count, glm::dvec3(0.0));
   const double emitted = flux_of(patches, first);
   // A sweep that changes little has still 1 / (1 - rho) as much to come.
   const glm::dvec3 absorbed = 1.0 - mean_reflectance(patches);
@@ -44,6 +44,7 @@ Solution solve_gathering(const SolveProblem& problem, RowCache& rows, const Prog
       const glm::dvec3 updated = first[i] + glm::dvec3(patches.reflectance[i]) * gathered;
       change += double{patches.area[i]} * std::abs(double{luminance_of(Rgb(updated - radiosity[i]))});
       radiosity[i] = updated;
+      irradiance[i] = gathered;
     }
     solution.steps += count;
     solution.residual = static_cast<float>(change / emitted);
@@ -51,6 +52,7 @@ Solution solve_gathering(const SolveProblem& problem, RowCache& rows, const Prog
   }
 
   solution.radiosity.assign(radiosity.begin(), radiosity.end());
+  solution.irradiance.assign(irradiance.begin(), irradiance.end());
   progress.update("solve", 1.0);
   return solution;
 }

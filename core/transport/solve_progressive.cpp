@@ -86,8 +86,9 @@ Rgb ambient_estimate(const Patches& patches, std::span<const glm::dvec3> unshot)
 
 Solution solve_progressive(const SolveProblem& problem, RowCache& rows, const Progress& progress) {
   const Patches& patches = problem.patches;
-  std::vector<glm::dvec3> radiosity = first_radiosity(problem);
-  Unshot unshot(patches, radiosity);
+  const std::vector<glm::dvec3> first = first_radiosity(problem);
+  std::vector<glm::dvec3> irradiance(first.size(), glm::dvec3(0.0));
+  Unshot unshot(patches, first);
   const double emitted = unshot.total_flux();
   Solution solution;
   solution.converged = true;
@@ -110,18 +111,18 @@ Solution solve_progressive(const SolveProblem& problem, RowCache& rows, const Pr
     for (std::size_t k = 0; k < row.patch.size(); ++k) {
       const std::uint32_t receiver = row.patch[k];
       const glm::dvec3 received = sent * (double{row.factor[k]} / double{patches.area[receiver]});
-      const glm::dvec3 reflected = glm::dvec3(patches.reflectance[receiver]) * received;
-      radiosity[receiver] += reflected;
-      unshot.add(receiver, reflected);
+      irradiance[receiver] += received;
+      unshot.add(receiver, glm::dvec3(patches.reflectance[receiver]) * received);
     }
     ++solution.steps;
   }
 
   // What is still unshot, spread evenly.
-  const Rgb ambient = ambient_estimate(patches, unshot.radiosity());
-  solution.radiosity.resize(patches.patch_count());
+  const glm::dvec3 ambient = ambient_estimate(patches, unshot.radiosity());
   for (std::uint32_t i = 0; i < patches.patch_count(); ++i) {
-    solution.radiosity[i] = Rgb(radiosity[i]) + patches.reflectance[i] * ambient;
+    irradiance[i] += ambient;
+    solution.irradiance.emplace_back(irradiance[i]);
+    solution.radiosity.emplace_back(first[i] + glm::dvec3(patches.reflectance[i]) * irradiance[i]);
   }
   progress.update("solve", 1.0);
   return solution;
