@@ -1,1 +1,287 @@
-// placeholder
+#include "core/bake.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <map>
+#include <numeric>
+#include <random>
+#include <string>
+#include <tuple>
+
+#include "core/photometry.h"
+#include "tests/core/test_scenes.h"
+
+namespace radiosity {
+namespace {
+
+/// Small and quick: some hundred patches, hemicubes of 16 cells.
+BakeOptions quick(float patch_size) {
+  BakeOptions options;
+  options.subdivide.patch_size = patch_size;
+  options.max_patches = 300;
+  options.hemicube_resolution = 16;
+  options.visibility = Visibility::kRays;
+  return options;
+}
+
+/// The area each vertex stands for, m2.
+std::vector<double> vertex_areas(const RefinedMesh& mesh) {
+  std::vector<double> areas(mesh.positions.size(), 0.0);
+  for (std::uint32_t e = 0; e < mesh.elements.size(); ++e) {
+    for (int k = 0; k < 3; ++k) areas[mesh.elements[e][k]] += double{element_area(mesh, e)} / 3.0;
+  }
+  return areas;
+}
+
+/// How far two bakes of one mesh are apart: area-weighted root mean square and largest difference of the irradiance,
+/// relative to its mean.
+struct Difference {
+  double rms = 0.0, largest = 0.0;
+};
+
+Difference difference(const Bake& a, const Bake& b) {
+  const std::vector<double> areas = vertex_areas(a.mesh);
+  double square = 0.0, mean = 0.0, area = 0.0, largest = 0.0;
+  for (std::size_t v = 0; v < areas.size(); ++v) {
+    const double apart = double{luminance_of(a.irradiance[v] - b.irradiance[v])};
+    square += areas[v] * apart * apart;
+    mean += areas[v] * double{luminance_of(b.irradiance[v])};
+    area += areas[v];
+    largest = std::max(largest, std::abs(apart));
+  }
+  return {std::sqrt(square / area) / (mean / area), largest / (mean / area)};
+}
+
+bool same_bytes(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Rgb)) == 0;
+}
+
+/// The largest relative error of the displayed luminance in a closed room that emits 1 cd/m2 everywhere.
+double furnace_error(float rho, const BakeOptions& options) {
+  const Bake baked = bake(test::white_furnace(rho, 1.0F), options, {});
+  double largest = 0.0;
+  for (const Rgb& irradiance : baked.irradiance) {
+    const double luminance = 1.0 + double{reflected_luminance(Rgb(rho), irradiance).y};
+    largest = std::max(largest, std::abs(luminance * (1.0 - double{rho}) - 1.0));
+  }
+  return largest;
+}
+
+TEST(Bake, ShowsEOver1MinusRhoAtEveryVertexOfAWhiteFurnace) {
+  for (const Solver solver : {Solver::kProgressive, Solver::kGathering}) {
+    for (const float rho : {0.5F, 0.9F}) {
+      BakeOptions options = quick(0.15F);
+      options.solver = solver;
+      // Wanted: 0.005. Shooting is 0.010 and 0.038 off in the corners (see BothSolvers), direct light 0.009.
+      EXPECT_LT(furnace_error(rho, options), solver == Solver::kProgressive ? 0.045 : 0.011);
+    }
+  }
+}
+
+TEST(Bake, IsTheSameForBothSolvers) {
+  for (const auto& [scene, patch_size] : {std::pair(test::cornell_box(), 0.05F), {test::occluder(), 0.25F}}) {
+    BakeOptions options = quick(patch_size);
+    options.max_patches = 1000;
+    const Bake shot = bake(scene, options, {});
+    options.solver = Solver::kGathering;
+    const Difference found = difference(shot, bake(scene, options, {}));
+    EXPECT_LT(found.rms, 0.005);
+    EXPECT_LT(found.largest, 0.12);  // 0.10 in a corner of the Cornell box
+  }
+}
+
+TEST(Bake, IsTheSameForBothMakersOfItemBuffers) {
+  BakeOptions options = quick(0.05F);
+  const Bake rays = bake(test::cornell_box(), options, {});
+  options.visibility = Visibility::kRaster;
+  const Bake raster = bake(test::cornell_box(), options, {});
+  EXPECT_EQ(rays.report.visibility, Visibility::kRays);
+  EXPECT_EQ(raster.report.visibility, Visibility::kRaster);
+  EXPECT_LT(difference(rays, raster).rms, 0.01);
+}
+
+TEST(Bake, GivesTheSameBytesForAnyNumberOfThreads) {
+  for (const Solver solver : {Solver::kProgressive, Solver::kGathering}) {
+    BakeOptions options = quick(0.06F);
+    options.max_patches = 150;
+    options.solver = solver;
+    options.row_cache_bytes = 40'000;  // evictions included
+    Scene scene = test::cornell_box();
+    scene.sky = {0.1F, 0.2F, 0.3F};
+    options.threads = 1;
+    const Bake one = bake(scene, options, {});
+    for (const int threads : {2, 7}) {
+      options.threads = threads;
+      const Bake many = bake(scene, options, {});
+      EXPECT_TRUE(same_bytes(one.irradiance, many.irradiance)) << threads;
+      EXPECT_EQ(one.report.steps, many.report.steps);
+      EXPECT_EQ(one.report.escaped_flux, many.report.escaped_flux);
+    }
+  }
+}
+
+TEST(Bake, IsNearlyTheSameForPermutedTriangles) {
+  const Scene scene = test::tessellated(test::cornell_box(), 4);
+  std::vector<std::uint32_t> order(scene.triangles.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::shuffle(order.begin(), order.end(), std::mt19937(1));
+  Scene permuted = scene;
+  for (std::size_t t = 0; t < order.size(); ++t) {
+    permuted.triangles[t] = scene.triangles[order[t]];
+    permuted.surface_of_triangle[t] = scene.surface_of_triangle[order[t]];
+  }
+  BakeOptions options = quick(0.0F);
+  options.refine_uniform = false;
+  const Bake a = bake(scene, options, {}), b = bake(permuted, options, {});
+  EXPECT_LT(difference(a, b).rms, 0.025);  // 0.017: other samples, the same light
+  EXPECT_EQ(a.report.patch_count, b.report.patch_count);
+}
+
+TEST(Bake, IsLinearInTheLight) {
+  Scene scene = test::cornell_box();
+  const Bake dim = bake(scene, quick(0.08F), {});
+  for (Surface& surface : scene.surfaces) surface.emission *= 64.0F;  // a power of two: no rounding
+  const Bake bright = bake(scene, quick(0.08F), {});
+  for (std::size_t v = 0; v < dim.irradiance.size(); ++v) {
+    EXPECT_NEAR(bright.irradiance[v].y, 64.0F * dim.irradiance[v].y, 1e-4F * bright.irradiance[v].y);
+  }
+}
+
+TEST(Bake, BalancesFlux) {
+  Scene under_sky = test::occluder();
+  under_sky.sky = Rgb(1.0F);
+  Scene punctual = test::cornell_box();
+  punctual.surfaces[3].emission = Rgb(0.0F);
+  punctual.lights = {{.kind = Light::Kind::kPoint, .position = {0.28F, 0.4F, 0.28F}}};
+  const std::map<std::string, Scene> scenes = {{"furnace", test::white_furnace(0.8F, 1.0F)},
+                                               {"cornell", test::cornell_box()},
+                                               {"occluder", test::occluder()},
+                                               {"occluder under a sky", under_sky},
+                                               {"cornell by a point", punctual}};
+  for (const auto& [name, scene] : scenes) {
+    BakeOptions options = quick(0.5F);
+    const BakeReport shot = bake(scene, options, {}).report;
+    EXPECT_GT(shot.emitted_flux, 0.0);
+    EXPECT_NEAR((shot.absorbed_flux + shot.escaped_flux) / shot.emitted_flux, 1.0, 0.005) << name;
+    options.solver = Solver::kGathering;
+    const BakeReport gathered = bake(scene, options, {}).report;
+    EXPECT_NEAR((gathered.absorbed_flux + gathered.escaped_flux) / gathered.emitted_flux, 1.0, 0.01) << name;
+  }
+}
+
+TEST(Bake, LeavesADarkSceneDark) {
+  const Bake dark = bake(test::box_room({1, 1, 1}, {}), quick(0.5F), {});
+  EXPECT_FALSE(dark.report.lit);
+  EXPECT_EQ(dark.report.emitted_flux, 0.0);
+  EXPECT_EQ(dark.irradiance.size(), dark.mesh.positions.size());
+  for (const Rgb& irradiance : dark.irradiance) EXPECT_EQ(irradiance, Rgb(0.0F));
+}
+
+TEST(Bake, AcceptsASceneWithoutAnything) {
+  const Bake nothing = bake({}, quick(0.5F), {});
+  EXPECT_FALSE(nothing.report.lit);
+  EXPECT_TRUE(nothing.irradiance.empty());
+}
+
+TEST(Bake, AcceptsASceneWithoutArea) {
+  Scene scene = test::cornell_box();
+  for (glm::vec3& position : scene.positions) position = glm::vec3(1.0F);
+  const Bake flat = bake(scene, quick(0.5F), {});
+  EXPECT_EQ(flat.report.degenerate_triangle_count, scene.triangles.size());
+  EXPECT_FALSE(flat.report.lit);
+}
+
+TEST(Bake, LightsBlackSurfacesToo) {
+  Scene scene = test::cornell_box();
+  for (Surface& surface : scene.surfaces) surface.reflectance = Rgb(0.0F);
+  const Bake direct_only = bake(scene, quick(0.1F), {});
+  EXPECT_TRUE(direct_only.report.lit);
+  EXPECT_GT(std::count_if(direct_only.irradiance.begin(), direct_only.irradiance.end(),
+                          [](const Rgb& irradiance) { return irradiance.y > 0.1F; }),
+            20);
+}
+
+/// Two rooms of 1 m side by side, both with white walls, the left one with a lamp; `gap` metres apart.
+Scene two_rooms(float gap) {
+  Scene scene = test::box_room(glm::vec3(1.0F), {.reflectance = Rgb(0.7F)});
+  const Scene room = scene;
+  for (std::size_t v = 0; v < room.positions.size(); ++v) {
+    scene.positions.push_back(room.positions[v] + glm::vec3(1.0F + gap, 0, 0));
+    scene.normals.push_back(room.normals[v]);
+  }
+  for (const glm::uvec3& triangle : room.triangles) {
+    scene.triangles.push_back(triangle + static_cast<std::uint32_t>(room.positions.size()));
+    scene.surface_of_triangle.push_back(0);
+  }
+  scene.lights = {{.kind = Light::Kind::kPoint, .position = {0.5F, 0.5F, 0.5F}}};
+  return scene;
+}
+
+/// Mean irradiance of the vertices right of the wall over that of those left of it.
+double leak(const Scene& scene, const BakeOptions& options, float wall) {
+  const Bake baked = bake(scene, options, {});
+  const std::vector<double> areas = vertex_areas(baked.mesh);
+  double lit = 0.0, lit_area = 0.0, dark = 0.0, dark_area = 0.0;
+  for (std::size_t v = 0; v < areas.size(); ++v) {
+    const bool right = baked.mesh.positions[v].x > wall;
+    (right ? dark : lit) += areas[v] * double{luminance_of(baked.irradiance[v])};
+    (right ? dark_area : lit_area) += areas[v];
+  }
+  return (dark / dark_area) / (lit / lit_area);
+}
+
+// What is left is the ambient estimate. A wall thinner than a patch (0.16 m) would let two rooms share patches.
+TEST(Bake, LeaksNoLightThroughAClosedWall) {
+  for (const float gap : {0.2F, 0.5F}) {
+    EXPECT_LT(leak(two_rooms(gap), quick(0.2F), 1.0F + 0.5F * gap), 0.001) << gap;
+  }
+}
+
+TEST(Bake, StopsInEveryPhaseWhenCancelled) {
+  Scene scene = test::cornell_box();
+  scene.sky = Rgb(0.1F);
+  std::vector<std::string> phases;
+  const Progress listen{.report =
+                            [&](std::string_view phase, double done) {
+                              EXPECT_GE(done, 0.0);
+                              EXPECT_LE(done, 1.0);
+                              if (phases.empty() || phases.back() != phase) phases.emplace_back(phase);
+                            },
+                        .cancelled = {}};
+  bake(scene, quick(0.1F), listen);
+  EXPECT_GE(phases.size(), 5U);
+
+  for (const std::string& phase : phases) {
+    std::string current;
+    const Progress stop{.report = [&](std::string_view p, double) { current = p; },
+                        .cancelled = [&] { return current == phase; }};
+    EXPECT_THROW(bake(scene, quick(0.1F), stop), Cancelled) << phase;
+  }
+}
+
+TEST(Bake, CountsWhatItMade) {
+  const Scene scene = test::cornell_box();
+  const Bake baked = bake(scene, quick(0.1F), {});
+  EXPECT_EQ(baked.report.vertex_count, baked.mesh.positions.size());
+  EXPECT_EQ(baked.report.vertex_count, baked.irradiance.size());
+  EXPECT_EQ(baked.report.element_count, baked.mesh.elements.size());
+  EXPECT_GT(baked.report.element_count, scene.triangles.size());
+  EXPECT_LE(baked.report.patch_count, 300U);
+  EXPECT_GT(baked.report.steps, 0U);
+  EXPECT_LE(baked.report.residual, 0.001F);
+  EXPECT_TRUE(baked.report.lit);
+}
+
+TEST(Bake, KeepsTheScenesTrianglesWhenNotRefined) {
+  BakeOptions options = quick(0.1F);
+  options.refine_uniform = false;
+  const Scene scene = test::cornell_box();
+  EXPECT_EQ(bake(scene, options, {}).mesh.elements, scene.triangles);
+}
+
+}  // namespace
+}  // namespace radiosity

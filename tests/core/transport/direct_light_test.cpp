@@ -191,11 +191,12 @@ TEST(DirectionalLight, BringsItsLuxTimesTheCosine) {
   EXPECT_EQ(s.direct.at(on_floor(0.75F), 0).y, 0.0F);  // the blocker's shadow is 0.75 m off its foot
 }
 
+// Distant groups of tiles are weighed by an estimate: rays deal out their light unevenly by half a per cent.
 TEST(LampLight, UnoccludedIsTheClosedForm) {
   const PreparedScene s(test::parallel_squares(1.0F), 200);
   for (const auto& [x, y] : {std::pair(0.5F, 0.5F), {0.1F, 0.9F}, {0.0F, 0.0F}}) {
     const double expected = rectangle_irradiance(double{-x}, 1.0 - double{x}, double{-y}, 1.0 - double{y}, 1.0);
-    EXPECT_NEAR(double{s.direct.at({{x, y, 1}, {0, 0, -1}}, 0).y} / expected, 1.0, 0.002) << x << ", " << y;
+    EXPECT_NEAR(double{s.direct.at({{x, y, 1}, {0, 0, -1}}, 0).y} / expected, 1.0, 0.01) << x << ", " << y;
   }
 }
 
@@ -252,7 +253,7 @@ TEST(LampLight, IsDarkInTheUmbraAndWholeOutsideThePenumbra) {
   for (std::uint32_t index = 0; index < 20; ++index) {
     EXPECT_EQ(s.direct.at(on_floor(0.7F, 0.3F), index), Rgb(0.0F));
     const double expected = 100.0 * rectangle_irradiance(-1.3 - 0.25, -1.3 + 0.25, -0.25, 0.25, 2.0);
-    EXPECT_NEAR(double{s.direct.at(on_floor(1.3F), index).y} / expected, 1.0, 0.003);
+    EXPECT_NEAR(double{s.direct.at(on_floor(1.3F), index).y} / expected, 1.0, 0.01);
   }
 }
 
@@ -312,10 +313,11 @@ Scene two_colours() {
 
 TEST(LampLight, HasTheColoursOfItsLamps) {
   const PreparedScene s(two_colours(), 200);
-  const Rgb found = s.direct.at(on_floor(1.5F), 0);
-  EXPECT_NEAR(double{found.x} / (100.0 * rectangle_irradiance(-1.75, -1.5, -0.25, 0.25, 2.0)), 1.0, 0.005);
-  EXPECT_NEAR(double{found.y} / (100.0 * rectangle_irradiance(-1.5, -1.25, -0.25, 0.25, 2.0)), 1.0, 0.005);
-  EXPECT_EQ(found.z, 0.0F);
+  Rgb mean(0.0F);
+  for (std::uint32_t index = 0; index < 1000; ++index) mean += s.direct.at(on_floor(1.5F), index) / 1000.0F;
+  EXPECT_NEAR(double{mean.x} / (100.0 * rectangle_irradiance(-1.75, -1.5, -0.25, 0.25, 2.0)), 1.0, 0.005);
+  EXPECT_NEAR(double{mean.y} / (100.0 * rectangle_irradiance(-1.5, -1.25, -0.25, 0.25, 2.0)), 1.0, 0.005);
+  EXPECT_EQ(mean.z, 0.0F);
 }
 
 TEST(LampLight, HasTheColourOfTheLampThatIsNotHidden) {
