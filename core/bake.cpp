@@ -1,7 +1,6 @@
 #include "core/bake.h"
 
 #include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <limits>
@@ -26,9 +25,9 @@ Subdivision subdivide(const Scene& scene, const BakeOptions& options, const Prog
   return subdivide_uniform(scene, options.subdivide, progress);
 }
 
-bool use_raster(const Scene& scene, Visibility visibility) {
-  if (visibility == Visibility::kAuto) return raster_is_faster(scene.triangles.size());
-  return visibility == Visibility::kRaster;
+bool use_raster(const Scene& scene, const BakeOptions& options) {
+  if (options.visibility != Visibility::kAuto) return options.visibility == Visibility::kRaster;
+  return raster_is_faster(scene.triangles.size(), options.hemicube_resolution);
 }
 
 /// Adds what the open sky brings to each patch, by the share of its view that meets nothing.
@@ -72,7 +71,7 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
 
   // Visibility.
   const RayScene rays(scene);
-  const bool raster = use_raster(scene, options.visibility);
+  const bool raster = use_raster(scene, options);
   const auto items = raster ? make_item_buffer_raster(scene) : make_item_buffer_rays(rays);
   const Hemicube patch_hemicube(options.hemicube_resolution);
   const auto row_source = make_hemicube_rows(patches, patch_hemicube, *items, surface_offset(scene));
@@ -107,7 +106,7 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
   report.reached_element_limit = subdivision.reached_limit;
   report.visibility = raster ? Visibility::kRaster : Visibility::kRays;
   balance(patches, problem, solution, rows, report);
-  report.lit = report.emitted_flux > 0.0;
+  report.lit = report.emitted_flux > 0.0 || !patches.lamps.empty();
   return result;
 }
 
@@ -117,10 +116,7 @@ Bake bake(const Scene& scene, const BakeOptions& options, const Progress& progre
   if (options.threads <= 0) return bake_here(scene, options, progress);
   const auto threads = static_cast<std::size_t>(options.threads);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-  tbb::task_arena arena(options.threads);
-  Bake result;
-  arena.execute([&] { result = bake_here(scene, options, progress); });
-  return result;
+  return bake_here(scene, options, progress);
 }
 
 }  // namespace radiosity

@@ -25,7 +25,7 @@ struct BakeOptions {
   Visibility visibility = Visibility::kAuto;
   Solver solver = Solver::kProgressive;
   float residual = 0.001F;  ///< stop when this share of the emitted flux is still unshot, (0,1)
-  int max_patches = 6000;   ///< patches that send light; more see finer indirect light
+  int max_patches = 4000;   ///< patches that send light; more see finer indirect light
   std::size_t row_cache_bytes = std::size_t{1} << 30;  ///< memory for rows of form factors
   int threads = 0;                                     ///< 0 uses every core; the result does not depend on it
 };

@@ -170,7 +170,10 @@ bool lets_through(const Scene& scene, std::uint32_t triangle, Barycentrics at, f
   if (!surface_of(scene, triangle).see_through) {
     return false;
   }
-  return scene.detail->opacity(triangle, at) <= threshold;
+  // Layers one behind another must not all stop the same rays: each shifts the threshold by a share of its own.
+  const float shift = static_cast<float>((triangle * 0x9E3779B9U) >> 8U) * 0x1p-24F;
+  const float shifted = threshold + shift;
+  return scene.detail->opacity(triangle, at) <= (shifted < 1.0F ? shifted : shifted - 1.0F);
 }
 
 }  // namespace radiosity

@@ -38,7 +38,7 @@ struct EmissiveTile {
 };
 
 struct PatchOptions {
-  int max_patches = 6000;    ///< tiles are made larger until no more patches than this remain, >= 1
+  int max_patches = 4000;    ///< tiles are made larger until no more patches than this remain, >= 1
   int points_per_patch = 4;  ///< where form factors and direct light of a patch are measured, >= 1
 };
 
