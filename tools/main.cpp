@@ -16,10 +16,8 @@
 #include "tools/progress_bar.h"
 #include "tools/report_file.h"
 
+namespace gltf_radiosity::tools {
 namespace {
-
-using namespace gltf_radiosity;
-using namespace gltf_radiosity::tools;
 
 void print(std::FILE* stream, std::string_view text) { std::fwrite(text.data(), 1, text.size(), stream); }
 
@@ -66,14 +64,19 @@ int bake_as_asked(const CommandLine& line) {
   return exit_code;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) try {
-  const auto parsed = parse_command_line(std::span<const char* const>(argv, static_cast<std::size_t>(argc)));
+int run(std::span<const char* const> arguments) {
+  const auto parsed = parse_command_line(arguments);
   if (const Ending* const ending = std::get_if<Ending>(&parsed)) return end_without_bake(*ending);
   catch_interrupts();
   return bake_as_asked(std::get<CommandLine>(parsed));
+}
+
+}  // namespace
+}  // namespace gltf_radiosity::tools
+
+int main(int argc, char** argv) try {
+  return gltf_radiosity::tools::run({argv, static_cast<std::size_t>(argc)});
 } catch (const std::exception& bug) {
-  print(stderr, error_line(bug.what()));
-  return kExitInternal;
+  gltf_radiosity::tools::print(stderr, gltf_radiosity::tools::error_line(bug.what()));
+  return gltf_radiosity::tools::kExitInternal;
 }
