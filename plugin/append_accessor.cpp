@@ -48,6 +48,8 @@ void set_bounds(const RawAccessor& raw, Json& accessor) {
   accessor["max"] = std::move(most);
 }
 
+}  // namespace
+
 void set_bounds(const RawAccessor& raw, Json& accessor) {
   switch (raw.component) {
     case ComponentType::kI8:
@@ -64,8 +66,6 @@ void set_bounds(const RawAccessor& raw, Json& accessor) {
       return set_bounds<float>(raw, accessor);
   }
 }
-
-}  // namespace
 
 std::size_t BufferBuilder::append(std::span<const std::uint8_t> bytes) {
   bytes_.resize(aligned(bytes_.size()));
@@ -86,22 +86,21 @@ std::size_t append_accessor(Document& document, BufferBuilder& buffer, const Raw
   const Bytes rows = packed ? Bytes() : padded_rows(raw, *layout, stride);
   const std::size_t offset = buffer.append(packed ? raw.bytes : rows);
 
-  // The bufferView.
-  Json& views = document.json["bufferViews"];
+  // The bufferView. (No reference is kept: a new member of an ordered tree moves the others.)
   Json view = {{"buffer", document.buffers.size()}, {"byteOffset", offset}, {"byteLength", raw.count * stride}};
   if (vertices && stride != layout->size) view["byteStride"] = stride;
   view["target"] = static_cast<std::uint16_t>(target);
-  views.push_back(std::move(view));
+  document.json["bufferViews"].push_back(std::move(view));
 
   // The accessor.
-  Json& accessors = document.json["accessors"];
   for (const char* stale : {"byteOffset", "sparse", "normalized"}) like.erase(stale);
-  like["bufferView"] = views.size() - 1;
+  like["bufferView"] = document.json["bufferViews"].size() - 1;
   like["componentType"] = static_cast<std::uint16_t>(raw.component);
   if (raw.normalized) like["normalized"] = true;
   like["count"] = raw.count;
   like["type"] = type;
   if (bounds || like.contains("min") || like.contains("max")) set_bounds(raw, like);
+  Json& accessors = document.json["accessors"];
   accessors.push_back(std::move(like));
   return accessors.size() - 1;
 }

@@ -21,6 +21,9 @@ class BufferBuilder {
   Bytes bytes_;
 };
 
+/// Sets `accessor`'s min and max to those of `raw`, in the stored component type. REQUIRES: raw.count > 0.
+void set_bounds(const RawAccessor& raw, Json& accessor);
+
 /// What a bufferView is for, with glTF's numbers.
 enum class BufferTarget : std::uint16_t { kVertices = 34962, kIndices = 34963 };
 

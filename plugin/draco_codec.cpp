@@ -13,6 +13,7 @@
 #include <string>
 
 #include "plugin/accessor_view.h"
+#include "plugin/append_accessor.h"
 #include "plugin/check_document.h"
 
 namespace gltf_radiosity {
@@ -110,6 +111,13 @@ class DracoDecoder {
     if (bytes_.empty()) return;
     document_.json["buffers"].push_back({{"byteLength", bytes_.size()}});
     document_.buffers.push_back(std::move(bytes_));
+
+    // Bounds are those of the values before compression: quantisation has moved them.
+    for (const auto& [index, source] : filled_) {
+      Json& accessor = document_.json["accessors"][index];
+      const bool bounded = accessor.contains("min") || accessor.contains("max");
+      if (bounded && accessor["count"] != 0) set_bounds(read_accessor(document_, index), accessor);
+    }
   }
 
  private:

@@ -1,4 +1,4 @@
-// Writes draco_box.glb: a room of 2 m seen from within, compressed by Draco, and a point light in it.
+// Writes draco_box.glb: a room seen from within, compressed by Draco, and a point light in its middle.
 //
 // A program of its own, because Python's standard library has no Draco encoder. The box needs nothing but
 // KHR_draco_mesh_compression: its accessors have no bufferViews to fall back on.
@@ -20,7 +20,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Vector = std::array<float, 3>;
 
-constexpr float kHalf = 1.0F;
+/// Half the room's size, m. Quantisation, relative to the longest side, moves the other ones.
+constexpr Vector kHalf{1.0F, 0.95F, 1.1F};
 constexpr std::uint32_t kVertexCount = 24;
 constexpr std::uint32_t kTriangleCount = 12;
 
@@ -46,9 +47,10 @@ void fill_box(draco::Mesh& mesh) {
     const float side = face % 2 == 0 ? -1.0F : 1.0F;
     for (const auto& [u, v] : {std::array{-1.0F, -1.0F}, {1.0F, -1.0F}, {1.0F, 1.0F}, {-1.0F, 1.0F}}) {
       Vector position{};
-      position[axis] = side * kHalf;
-      position[(axis + 1) % 3] = u * kHalf;
-      position[(axis + 2) % 3] = -side * v * kHalf;  // turns the winding with the side, so that all faces look inwards
+      position[axis] = side * kHalf[axis];
+      position[(axis + 1) % 3] = u * kHalf[(axis + 1) % 3];
+      position[(axis + 2) % 3] =
+          -side * v * kHalf[(axis + 2) % 3];  // turns the winding with the side, so that all faces look inwards
       Vector normal{};
       normal[axis] = -side;
       positions.push_back(position);
@@ -65,8 +67,7 @@ void fill_box(draco::Mesh& mesh) {
 
 /// The glTF around `compressed_size` bytes of Draco data that decode to `vertex_count` vertices.
 Json describe(std::size_t compressed_size, std::size_t vertex_count) {
-  const Vector low{-kHalf, -kHalf, -kHalf};
-  const Vector high{kHalf, kHalf, kHalf};
+  const Vector low{-kHalf[0], -kHalf[1], -kHalf[2]};
   const Json draco = {{"bufferView", 0}, {"attributes", {{"POSITION", 0}, {"NORMAL", 1}}}};
   const Json primitive = {{"attributes", {{"POSITION", 0}, {"NORMAL", 1}}},
                           {"indices", 2},
@@ -86,7 +87,7 @@ Json describe(std::size_t compressed_size, std::size_t vertex_count) {
   json["meshes"] = Json::array({{{"name", "box"}, {"primitives", Json::array({primitive})}}});
   json["materials"] = Json::array({{{"name", "grey"}, {"pbrMetallicRoughness", grey}}});
   json["accessors"] = {
-      {{"componentType", 5126}, {"count", vertex_count}, {"type", "VEC3"}, {"min", low}, {"max", high}},
+      {{"componentType", 5126}, {"count", vertex_count}, {"type", "VEC3"}, {"min", low}, {"max", kHalf}},
       {{"componentType", 5126}, {"count", vertex_count}, {"type", "VEC3"}},
       {{"componentType", 5123}, {"count", 3 * kTriangleCount}, {"type", "SCALAR"}}};
   json["bufferViews"] = Json::array({{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", compressed_size}}});
@@ -126,7 +127,7 @@ int main(int argument_count, char** arguments) {
   fill_box(mesh);
   draco::ExpertEncoder encoder(mesh);
   encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
-  encoder.SetAttributeQuantization(0, 14);
+  encoder.SetAttributeQuantization(0, 11);
   encoder.SetAttributeQuantization(1, 10);
   encoder.SetTrackEncodedProperties(true);
   draco::EncoderBuffer compressed;

@@ -81,6 +81,18 @@ TEST(DracoCodec, GivesBackWhatWasEncoded) {
   EXPECT_EQ(as_indices(read_accessor(*document, 2)), (std::vector<std::uint32_t>{0, 1, 2, 1, 3, 2, 2, 3, 4, 3, 5, 4}));
 }
 
+TEST(DracoCodec, BoundsAreThoseOfTheDecodedValues) {
+  GltfBuilder builder = compressed({4});
+  builder.json["accessors"][0]["min"] = {-0.01, 0.0, 0.49};
+  builder.json["accessors"][0]["max"] = {5.01, 1.0, 0.51};
+  const auto document = read_document(builder.glb(), {});
+  ASSERT_TRUE(document) << document.error().text();
+  const Json& position = document->json["accessors"][0];
+  EXPECT_EQ(position["min"], Json({0.0, 0.0, 0.5}));
+  EXPECT_EQ(position["max"], Json({5.0, 1.0, 0.5}));
+  EXPECT_FALSE(document->json["accessors"][1].contains("min"));
+}
+
 TEST(DracoCodec, LeavesNoTraceOfTheExtension) {
   const auto document = read_document(compressed({2}).glb(), {});
   ASSERT_TRUE(document) << document.error().text();
