@@ -53,7 +53,7 @@ BENCHMARK(BM_BakeByQuality)
     ->Apply(whole_bakes)
     ->ArgNames({"cells", "max_patches"})
     ->Args({16, 1500})
-    ->Args({32, 6000})
+    ->Args({32, 4000})
     ->Args({64, 12000});
 BENCHMARK(BM_BakeByThreads)->Apply(whole_bakes)->ArgName("threads")->Arg(1)->Arg(2)->Arg(0);
 
