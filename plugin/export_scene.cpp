@@ -128,14 +128,13 @@ ExportReport export_scene(Document& document, BufferBuilder& buffer, const Impor
   const std::vector<VertexColors> colors = vertex_colors(scene, bake, refined);
   const float k = exposure(colors, options, report);
 
-  // Geometry and colours. A node that draws its mesh several times (EXT_mesh_gpu_instancing) can show only one light.
+  // Geometry and colours.
   std::vector<BakedPrimitive> baked;
-  std::set<std::pair<std::size_t, std::size_t>> done;
   const std::vector<std::size_t> meshes = separate_meshes(document.json, scene.instances);
   for (std::size_t i = 0; i < refined.size(); ++i) {
     const PrimitiveInstance& instance = scene.instances[i];
     count(instance, refined[i], report);
-    if (!instance.receives || !done.emplace(meshes[i], instance.primitive).second) continue;
+    if (!instance.receives) continue;
     baked.push_back({meshes[i], instance.primitive, instance.material});
     Json primitive = primitive_json(document.json, baked.back());
     drop_variants(primitive, instance, warnings);

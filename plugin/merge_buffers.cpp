@@ -75,16 +75,15 @@ Result<Done> embed_images(Document& document, Bytes& merged) {
   Json& root = document.json;
   if (!root.contains("images")) return Done{};
   for (std::size_t i = 0; i < root["images"].size(); ++i) {
-    Json& image = root["images"][i];
-    if (!is_external(image)) continue;
+    if (!is_external(root["images"][i])) continue;
     const Result<Bytes> bytes = image_bytes(document, i);
     if (!bytes) return bytes.error();
 
     const std::size_t offset = append_aligned(merged, *bytes);
-    Json& views = root["bufferViews"];
-    views.push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes->size()}});
+    root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes->size()}});
+    Json& image = root["images"][i];
     image.erase("uri");
-    image["bufferView"] = views.size() - 1;
+    image["bufferView"] = root["bufferViews"].size() - 1;
     if (!image.contains("mimeType")) image["mimeType"] = image_type(*bytes);
   }
   if (!merged.empty()) root["buffers"][0]["byteLength"] = merged.size();

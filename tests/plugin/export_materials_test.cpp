@@ -1,1 +1,126 @@
-// placeholder
+#include "plugin/export_materials.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace gltf_radiosity {
+namespace {
+
+const Json kEverything = Json::parse(R"({
+  "name": "wall",
+  "extras": {"id": 7},
+  "pbrMetallicRoughness": {
+    "baseColorFactor": [0.5, 0.25, 0.125, 0.75],
+    "baseColorTexture": {"index": 2, "texCoord": 1, "extensions": {"KHR_texture_transform": {"scale": [2, 2]}}},
+    "metallicFactor": 0.5,
+    "roughnessFactor": 0.25,
+    "metallicRoughnessTexture": {"index": 3},
+    "extras": "kept"
+  },
+  "normalTexture": {"index": 4},
+  "occlusionTexture": {"index": 5},
+  "emissiveTexture": {"index": 6},
+  "emissiveFactor": [1, 1, 1],
+  "alphaMode": "MASK",
+  "alphaCutoff": 0.25,
+  "doubleSided": true,
+  "extensions": {
+    "KHR_materials_emissive_strength": {"emissiveStrength": 5},
+    "KHR_materials_clearcoat": {},
+    "MSFT_packing_normalRoughnessMetallic": {},
+    "VENDOR_physics": {"density": 2}
+  }
+})");
+
+ImportedMaterial imported(std::optional<std::uint32_t> source, float alpha = 1.0F) {
+  ImportedMaterial material;
+  material.source = source;
+  material.base_color_factor = {0.5F, 0.25F, 0.125F, alpha};
+  return material;
+}
+
+TEST(ExportMaterials, AnUnlitMaterialShowsNothingButBaseColour) {
+  const Json expected = Json::parse(R"({
+    "name": "wall",
+    "extras": {"id": 7},
+    "pbrMetallicRoughness": {
+      "baseColorTexture": {"index": 2, "texCoord": 1, "extensions": {"KHR_texture_transform": {"scale": [2, 2]}}},
+      "baseColorFactor": [1.0, 1.0, 1.0, 0.75],
+      "metallicFactor": 0.0,
+      "roughnessFactor": 1.0,
+      "extras": "kept"
+    },
+    "alphaMode": "MASK",
+    "alphaCutoff": 0.25,
+    "doubleSided": true,
+    "extensions": {"VENDOR_physics": {"density": 2}, "KHR_materials_unlit": {}}
+  })");
+  EXPECT_EQ(nlohmann::json(unlit_material(kEverything, imported(0, 0.75F))), nlohmann::json(expected));
+}
+
+TEST(ExportMaterials, AFactorOfOneIsLeftOut) {
+  EXPECT_FALSE(unlit_material(kEverything, imported(0))["pbrMetallicRoughness"].contains("baseColorFactor"));
+}
+
+TEST(ExportMaterials, TheDefaultMaterialBecomesUnlitToo) {
+  Document document;
+  document.json = Json::object();
+  EXPECT_EQ(export_unlit_material(document, imported(std::nullopt), {}), 0U);
+  EXPECT_EQ(document.json["materials"][0]["extensions"], Json::parse(R"({"KHR_materials_unlit": {}})"));
+  EXPECT_EQ(document.json["materials"][0]["pbrMetallicRoughness"]["metallicFactor"], 0.0);
+}
+
+TEST(ExportMaterials, AMaterialNobodyElseUsesIsReplaced) {
+  Document document;
+  document.json["materials"] = Json::parse(R"([{"name": "a"}, {"name": "b"}])");
+  EXPECT_EQ(export_unlit_material(document, imported(1), {0}), 1U);
+  EXPECT_EQ(document.json["materials"].size(), 2U);
+  EXPECT_EQ(document.json["materials"][1]["name"], "b");
+  EXPECT_TRUE(document.json["materials"][1]["extensions"].contains("KHR_materials_unlit"));
+}
+
+TEST(ExportMaterials, AMaterialSomebodyElseUsesIsCloned) {
+  Document document;
+  document.json["materials"] = Json::parse(R"([{"name": "a"}])");
+  EXPECT_EQ(export_unlit_material(document, imported(0), {0}), 1U);
+  EXPECT_EQ(document.json["materials"][0], Json({{"name", "a"}}));
+  EXPECT_EQ(document.json["materials"][1]["name"], "a");
+}
+
+TEST(ExportMaterials, UnlitIsUsedAndNotRequired) {
+  Document document;
+  document.json["extensionsUsed"] = Json::array({"KHR_lights_punctual"});
+  export_unlit_material(document, imported(std::nullopt), {});
+  export_unlit_material(document, imported(std::nullopt), {});
+  EXPECT_EQ(document.json["extensionsUsed"], Json({"KHR_lights_punctual", "KHR_materials_unlit"}));
+  EXPECT_FALSE(document.json.contains("extensionsRequired"));
+}
+
+TEST(ExportMaterials, EveryKindOfReferenceIsFound) {
+  const Json root = Json::parse(R"({
+    "meshes": [{"primitives": [{"material": 1},
+                               {"extensions": {"KHR_materials_variants": {"mappings": [{"material": 2}]}}}]}],
+    "animations": [{"channels": [{"target": {"extensions": {"KHR_animation_pointer": {
+        "pointer": "/materials/30/emissiveFactor"}}}}]}],
+    "materials": [{"extensions": {"MSFT_lod": {"ids": [4]}}}],
+    "extensions": {"VENDOR_palette": {"materials": [5]}},
+    "nodes": [{"mesh": 6}]
+  })");
+  EXPECT_THAT(referenced_materials(root), testing::ElementsAre(1, 2, 4, 5, 30));
+}
+
+TEST(ExportMaterials, ExtensionsThatNoMaterialHasAnyMoreAreForgotten) {
+  Json root = Json::parse(R"({
+    "extensionsUsed": ["KHR_materials_clearcoat", "KHR_materials_sheen", "KHR_materials_unlit", "KHR_lights_punctual",
+                       "KHR_materials_variants"],
+    "extensionsRequired": ["KHR_materials_clearcoat"],
+    "materials": [{"extensions": {"KHR_materials_sheen": {}, "KHR_materials_unlit": {}}}]
+  })");
+  forget_unused_material_extensions(root);
+  EXPECT_EQ(root["extensionsUsed"],
+            Json({"KHR_materials_sheen", "KHR_materials_unlit", "KHR_lights_punctual", "KHR_materials_variants"}));
+  EXPECT_FALSE(root.contains("extensionsRequired"));
+}
+
+}  // namespace
+}  // namespace gltf_radiosity

@@ -1,0 +1,63 @@
+#include "plugin/check_options.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace gltf_radiosity {
+namespace {
+
+/// The option that is refused, or "".
+template <typename Change>
+std::string refused(const Change& change) {
+  Options options;
+  change(options);
+  const Result<Done> checked = check_options(options);
+  if (checked) return "";
+  EXPECT_EQ(checked.error().code, ErrorCode::kBadOption);
+  return checked.error().place;
+}
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(CheckOptions, DefaultsAreFine) {
+  EXPECT_EQ(refused([](Options&) {}), "");
+}
+
+TEST(CheckOptions, HemicubesAreEven) {
+  for (const int cells : {0, 1, 3, -2, 514}) {
+    EXPECT_EQ(refused([&](Options& o) { o.hemicube = cells; }), "--hemicube") << cells;
+  }
+  for (const int cells : {2, 512}) EXPECT_EQ(refused([&](Options& o) { o.hemicube = cells; }), "") << cells;
+}
+
+TEST(CheckOptions, TheMeshHasASize) {
+  EXPECT_EQ(refused([](Options& o) { o.patch_size = -1.0; }), "--patch-size");
+  EXPECT_EQ(refused([](Options& o) { o.patch_size = kInfinity; }), "--patch-size");
+  EXPECT_EQ(refused([](Options& o) { o.subdivide = {{"floor", 9}}; }), "--subdivide");
+  EXPECT_EQ(refused([](Options& o) { o.subdivide = {{"floor", 8}, {"wall", 0}}; }), "");
+}
+
+TEST(CheckOptions, LightIsNotNegative) {
+  EXPECT_EQ(refused([](Options& o) { o.sky = {1.0, -0.5, 1.0}; }), "--sky");
+  EXPECT_EQ(refused([](Options& o) { o.sun = Sun{91.0, 0.0, 1.0}; }), "--sun");
+  EXPECT_EQ(refused([](Options& o) { o.sun = Sun{45.0, 0.0, -1.0}; }), "--sun");
+  EXPECT_EQ(refused([](Options& o) { o.sun = Sun{45.0, 720.0, 1.0}; }), "");
+}
+
+TEST(CheckOptions, TheSolverComesToAnEnd) {
+  for (const double residual : {0.0, 1.0, -0.1, kInfinity}) {
+    EXPECT_EQ(refused([&](Options& o) { o.residual = residual; }), "--residual") << residual;
+  }
+  EXPECT_EQ(refused([](Options& o) { o.max_patches = 0; }), "--max-patches");
+  EXPECT_EQ(refused([](Options& o) { o.threads = -1; }), "--threads");
+}
+
+TEST(CheckOptions, ExposureIsPositive) {
+  for (const double k : {0.0, -1.0, kInfinity}) {
+    EXPECT_EQ(refused([&](Options& o) { o.exposure = k; }), "--exposure") << k;
+  }
+}
+
+}  // namespace
+}  // namespace gltf_radiosity
