@@ -17,7 +17,14 @@ void append_bytes(RawAccessor& raw, const Bytes& bytes, std::size_t row_count) {
   raw.count += row_count;
 }
 
-/// Scales x, y, z of `row` to unit length; a sum of nothing takes the first end's direction.
+/// The mean; if that is no number because an end is none, the other end.
+float mean_of(float first, float second) {
+  const float mean = (first + second) * 0.5F;
+  if (std::isfinite(mean)) return mean;
+  return std::isfinite(first) ? first : second;
+}
+
+/// Scales x, y, z of `row` to unit length; opposite ends that cancel take the first one's direction.
 void normalise(float* row, const float* first_end) {
   const float length = std::sqrt(row[0] * row[0] + row[1] * row[1] + row[2] * row[2]);
   const bool valid = std::isfinite(length) && length > 1e-12F;
@@ -144,7 +151,7 @@ void append_midpoints(RawAccessor& raw, Interpolation how, std::span<const glm::
     const float* first = values.data() + ends[k].x * width;
     const float* second = values.data() + ends[k].y * width;
     float* mean = values.data() + (old_count + k) * width;
-    for (std::size_t c = 0; c < width; ++c) mean[c] = (first[c] + second[c]) * 0.5F;
+    for (std::size_t c = 0; c < width; ++c) mean[c] = mean_of(first[c], second[c]);
     if (how == Interpolation::kDirection || how == Interpolation::kTangent) normalise(mean, first);
     if (how == Interpolation::kTangent) mean[3] = first[3];
   }

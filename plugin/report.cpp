@@ -36,11 +36,11 @@ void add_warnings(const radiosity::BakeReport& bake, std::vector<Warning>& warni
   const auto warn = [&](const char* code, std::string message) { warnings.push_back({code, "", std::move(message)}); };
   if (!bake.lit) warn("no-light", "the scene holds no light: everything is black");
   if (bake.degenerate_triangle_count > 0) {
-    warn("degenerate-triangles", fmt::format("{} triangles have no area: they stay in the file and carry no light",
+    warn("degenerate-triangles", fmt::format("triangles without area: {}; they stay in the file and carry no light",
                                              bake.degenerate_triangle_count));
   }
   if (bake.buried_element_count > 0) {
-    warn("buried-elements", fmt::format("{} elements lie inside other objects: they show the light of their neighbours",
+    warn("buried-elements", fmt::format("elements inside other objects: {}; they show the light of their neighbours",
                                         bake.buried_element_count));
   }
   if (bake.reflectance_clamped_area > 0.0) {

@@ -73,9 +73,10 @@ TEST(InterpolateAttributes, OppositeNormalsTakeTheFirst) {
   EXPECT_THAT(midpoint(raw_of({0, 0, 1, 0, 0, -1}, 3), Interpolation::kDirection), ElementsAre(0, 0, 1));
 }
 
-TEST(InterpolateAttributes, ANormalThatIsNoNumberIsNotSpreadAsZero) {
+TEST(InterpolateAttributes, WhatIsNoNumberDoesNotSpread) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_THAT(midpoint(raw_of({0, 0, 1, nan, 0, 0}, 3), Interpolation::kDirection), ElementsAre(0, 0, 1));
+  EXPECT_THAT(midpoint(raw_of({nan, 3, 5, nan}, 2), Interpolation::kLinear), ElementsAre(5, 3));
+  EXPECT_THAT(midpoint(raw_of({nan, nan, nan, 0, 0, 1}, 3), Interpolation::kDirection), ElementsAre(0, 0, 1));
 }
 
 TEST(InterpolateAttributes, TangentsKeepTheSignOfTheFirstEnd) {
