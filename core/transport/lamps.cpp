@@ -13,8 +13,9 @@ namespace {
 /// Beyond this many edge lengths a lamp counts as a point: 1/2 per cent wrong at most.
 constexpr float kPointLike = 6.0F;
 
-/// Beyond this many radii a group is weighed as a whole.
-constexpr float kFar = 6.0F;
+/// Beyond this many radii a group is weighed as a whole. At 6, the light in a white furnace is 1 % wrong at some
+/// vertices; at 12, 0.4 %, as quickly.
+constexpr float kFar = 12.0F;
 
 /// A polygon cut off at a horizon: a triangle keeps at most four corners.
 struct Polygon {

@@ -297,8 +297,7 @@ TEST(BothSolvers, AgreeOnMeasuredRows) {
     const SolveProblem problem{s.patches, direct, 1e-4F};
     const Solution shot = run(&solve_progressive, *s.rows, problem);
     const Solution gathered = run(&solve_gathering, *s.rows, problem);
-    // 3.5 % in the Cornell box: four hemicubes to a patch do not say well what reaches its neighbour in a corner.
-    EXPECT_LT(relative_rms(s.patches, shot.radiosity, gathered.radiosity), 0.05);
+    EXPECT_LT(relative_rms(s.patches, shot.radiosity, gathered.radiosity), 0.005);
   }
 }
 
@@ -310,7 +309,7 @@ TEST(BothSolvers, FindEOver1MinusRhoOnMeasuredRows) {
     // Lamps are left out of the radiosity: E / (1 - rho) less E itself.
     const std::vector<Rgb> expected(s.patches.patch_count(), Rgb(kPi * (1.0F / (1.0F - rho) - 1.0F)));
     expect_near(run(&solve_gathering, *s.rows, problem).radiosity, expected, 0.002F);
-    EXPECT_LT(relative_rms(s.patches, run(&solve_progressive, *s.rows, problem).radiosity, expected), 0.05);
+    EXPECT_LT(relative_rms(s.patches, run(&solve_progressive, *s.rows, problem).radiosity, expected), 0.005);
   }
 }
 
