@@ -5,13 +5,12 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 
 namespace radiosity {
 
@@ -60,12 +59,12 @@ class SurfaceDetail {
 struct Light {
   enum class Kind : std::uint8_t { kPoint, kSpot, kDirectional };
   Kind kind = Kind::kPoint;
-  glm::vec3 position{0.0F};              ///< metres; unused by directional lights
+  glm::vec3 position{0.0F};                ///< metres; unused by directional lights
   glm::vec3 direction{0.0F, 0.0F, -1.0F};  ///< unit, the way the light travels; unused by point lights
-  Rgb intensity{1.0F};                   ///< candela for point and spot lights, lux for directional ones
-  float range = 0.0F;                    ///< metres beyond which nothing arrives; 0 means no limit
-  float inner_cone_cos = 1.0F;           ///< cosine of the angle up to which a spot is at full strength
-  float outer_cone_cos = 0.70710678F;    ///< cosine of the angle where a spot ends
+  Rgb intensity{1.0F};                     ///< candela for point and spot lights, lux for directional ones
+  float range = 0.0F;                      ///< metres beyond which nothing arrives; 0 means no limit
+  float inner_cone_cos = 1.0F;             ///< cosine of the angle up to which a spot is at full strength
+  float outer_cone_cos = 0.70710678F;      ///< cosine of the angle where a spot ends
 };
 
 /// Shapes: `positions` and `normals` are [vertex_count]; `triangles` and `surface_of_triangle` are [triangle_count].
@@ -73,8 +72,8 @@ struct Light {
 /// A vertex here is what glTF calls one: a position *and* its attributes. Vertices at one position that differ in
 /// another attribute (a seam) are separate; mesh/weld.h finds them again.
 struct Scene {
-  std::vector<glm::vec3> positions;  ///< metres, finite
-  std::vector<glm::vec3> normals;    ///< unit shading normals; zero where triangles are to be shaded flat
+  std::vector<glm::vec3> positions;   ///< metres, finite
+  std::vector<glm::vec3> normals;     ///< unit shading normals; zero where triangles are to be shaded flat
   std::vector<glm::uvec3> triangles;  ///< counter-clockwise seen from the front
   std::vector<std::uint32_t> surface_of_triangle;
   std::vector<Surface> surfaces;

@@ -40,21 +40,21 @@ struct Sun {
 struct Options {
   // Mesh
   Refine refine = Refine::kUniform;
-  double patch_size = 0.0;   ///< longest edge of the baked mesh, metres; 0 chooses one that suits the scene
+  double patch_size = 0.0;  ///< longest edge of the baked mesh, metres; 0 chooses one that suits the scene
   std::vector<std::pair<std::string, int>> subdivide;  ///< node name -> times each triangle is cut in four, [0, 8]
   // Light
   std::optional<std::array<double, 3>> sky;  ///< luminance of the open sky, cd/m2, linear Rec. 709
   std::optional<Sun> sun;
-  bool default_sky = true;   ///< a scene without any light gets a white sky of 1 cd/m2
+  bool default_sky = true;  ///< a scene without any light gets a white sky of 1 cd/m2
   Metals metals = Metals::kDiffuse;
   LightUnits light_units = LightUnits::kAuto;
   // Transport
-  int hemicube = 32;         ///< cells along one edge, even, [2, 512]
+  int hemicube = 32;  ///< cells along one edge, even, [2, 512]
   VisibilityMethod visibility = VisibilityMethod::kAuto;
   SolverMethod solver = SolverMethod::kProgressive;
-  double residual = 0.001;   ///< stop at this share of unshot flux, (0, 1)
+  double residual = 0.001;  ///< stop at this share of unshot flux, (0, 1)
   int max_patches = 4000;
-  int threads = 0;           ///< 0: every core
+  int threads = 0;  ///< 0: every core
   // Output
   std::optional<double> exposure;  ///< k, m2/cd; none chooses automatically
   ColorType color_type = ColorType::kFloat;
@@ -89,25 +89,26 @@ struct Report {
   std::uint64_t output_triangles = 0;
   std::uint64_t output_vertices = 0;
   std::uint64_t patches = 0;
-  std::uint64_t lights = 0;             ///< punctual ones
+  std::uint64_t lights = 0;  ///< punctual ones
   std::uint64_t emissive_triangles = 0;
   std::uint64_t steps = 0;
   std::uint64_t buried_elements = 0;
-  double patch_size = 0.0;              ///< metres, the one used; 0 with Refine::kNone
+  double patch_size = 0.0;  ///< metres, the one used; 0 with Refine::kNone
   double residual = 0.0;
-  double emitted_flux = 0.0;            ///< lm
-  double absorbed_flux = 0.0;           ///< lm
-  double escaped_flux = 0.0;            ///< lm
-  double exposure = 1.0;                ///< k, m2/cd
-  double clipped_share = 0.0;           ///< of the baked area
-  std::string visibility;               ///< "raster" or "rays"
+  double emitted_flux = 0.0;   ///< lm
+  double absorbed_flux = 0.0;  ///< lm
+  double escaped_flux = 0.0;   ///< lm
+  double exposure = 1.0;       ///< k, m2/cd
+  double clipped_share = 0.0;  ///< of the baked area
+  std::string visibility;      ///< "raster" or "rays"
   std::vector<PhaseReport> phases;
   std::vector<Warning> warnings;
 };
 
-/// Bakes `input` (.glb or .gltf) and writes `output`: .glb, .gltf with a .bin beside it, or .embedded.gltf with everything in
-/// one JSON file. The output appears whole or not at all.
-Result<Report> bake_file(const std::string& input, const std::string& output, const Options& options, const Callbacks& callbacks = {});
+/// Bakes `input` (.glb or .gltf) and writes `output`: .glb, .gltf with a .bin beside it, or .embedded.gltf with
+/// everything in one JSON file. The output appears whole or not at all.
+Result<Report> bake_file(const std::string& input, const std::string& output, const Options& options,
+                         const Callbacks& callbacks = {});
 
 struct BakedGlb {
   std::vector<std::byte> glb;

@@ -16,7 +16,8 @@ struct Pixels {
   std::vector<std::uint8_t> rgba;  ///< [height * width * 4]
 };
 
-/// Formats are told apart by content. `place` goes into errors: `images[2]: KTX2 textures are not supported`. At most 2^28 pixels.
+/// Formats are told apart by content. `place` goes into errors: `images[2]: KTX2 textures are not supported`. At most
+/// 2^28 pixels.
 Result<Pixels> decode_image(std::span<const std::uint8_t> bytes, const std::string& place);
 
 }  // namespace gltf_radiosity

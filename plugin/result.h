@@ -9,12 +9,12 @@ namespace gltf_radiosity {
 
 /// What kind of failure; tools turn it into an exit code.
 enum class ErrorCode {
-  kBadInput,      ///< the glTF is broken or uses something unsupported
-  kBadOption,     ///< an option's value cannot be used with this input
-  kCannotWrite,   ///< the output could not be written
-  kLimit,         ///< a limit on memory or time was reached
-  kCancelled,     ///< the caller asked to stop
-  kInternal,      ///< a bug of ours
+  kBadInput,     ///< the glTF is broken or uses something unsupported
+  kBadOption,    ///< an option's value cannot be used with this input
+  kCannotWrite,  ///< the output could not be written
+  kLimit,        ///< a limit on memory or time was reached
+  kCancelled,    ///< the caller asked to stop
+  kInternal,     ///< a bug of ours
 };
 
 struct Error {

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
-
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include "core/scene.h"
 
@@ -18,10 +17,10 @@ namespace radiosity {
 /// a midpoint always belong to the same glTF primitive, so a seam stays a seam.
 struct RefinedMesh {
   std::uint32_t scene_vertex_count = 0;
-  std::vector<glm::uvec2> midpoints;      ///< [vertex_count - scene_vertex_count]
-  std::vector<glm::vec3> positions;       ///< metres
-  std::vector<glm::vec3> normals;         ///< unit, or zero where the scene's are
-  std::vector<glm::uvec3> elements;       ///< vertex indices, wound like their triangle; grouped by ascending triangle
+  std::vector<glm::uvec2> midpoints;  ///< [vertex_count - scene_vertex_count]
+  std::vector<glm::vec3> positions;   ///< metres
+  std::vector<glm::vec3> normals;     ///< unit, or zero where the scene's are
+  std::vector<glm::uvec3> elements;   ///< vertex indices, wound like their triangle; grouped by ascending triangle
   std::vector<std::uint32_t> triangle_of_element;  ///< the scene triangle an element is part of
   std::vector<SubTriangle> part_of_element;        ///< which part
 };
