@@ -1,5 +1,6 @@
 #include "plugin/gltf_radiosity.h"
 
+#include <algorithm>
 #include <cstring>
 #include <exception>
 #include <new>
@@ -49,7 +50,9 @@ radiosity::BakeOptions bake_options(const Options& options, const ImportedScene&
   radiosity::BakeOptions result;
   result.subdivide.patch_size = static_cast<float>(patch_size);
   result.subdivide.level_of_triangle = scene.level_of_triangle;
-  result.refine_uniform = options.refine == Refine::kUniform;
+  // A node's own level counts even where all others keep their triangles: the patch size is 0 then.
+  const bool has_levels = std::ranges::any_of(scene.level_of_triangle, [](std::int8_t level) { return level > 0; });
+  result.refine_uniform = options.refine == Refine::kUniform || has_levels;
   result.hemicube_resolution = options.hemicube;
   result.visibility = visibility_of(options.visibility);
   result.solver =

@@ -95,10 +95,12 @@ test('two nodes with one mesh get a COLOR_0 each and share the rest', async () =
   assert.equal(left.indices, right.indices)
 })
 
-test('the subdivision of one node can be asked for by name', async () => {
-  const { input, output } = await baked('unit_cube.glb', 'level.glb', '--refine', 'uniform', '--subdivide', 'cube=2')
-  const count = (gltf) => triangles_of(gltf, primitives_of_scene(gltf)[0][1]).length
-  assert.equal(count(output), 16 * count(input))
+test('the subdivision of one node can be asked for by name, whatever holds for the others', async () => {
+  for (const options of [['--refine', 'none'], ['--refine', 'uniform'], ['--patch-size', '0.05']]) {
+    const { input, output } = await baked('unit_cube.glb', 'level.glb', ...options, '--subdivide', 'cube=2')
+    const count = (gltf) => triangles_of(gltf, primitives_of_scene(gltf)[0][1]).length
+    assert.equal(count(output), 16 * count(input), options.join(' '))
+  }
 })
 
 test('.glb, .gltf and .embedded.gltf hold the same colours and images', async () => {
