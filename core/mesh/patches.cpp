@@ -65,13 +65,19 @@ std::vector<float> triangle_areas(const Scene& scene) {
   return areas;
 }
 
+/// How often the edges of a triangle are cut so that its tiles are no longer than `size`; 0 without area.
+std::uint32_t cuts_for(const Scene& scene, std::span<const float> areas, std::uint32_t triangle, float size) {
+  if (!(areas[triangle] > 0.0F)) return 0;
+  const float cuts = std::ceil(longest_edge(scene, triangle) / size);
+  return static_cast<std::uint32_t>(std::clamp(cuts, 1.0F, static_cast<float>(kMaxCuts)));
+}
+
 /// Cuts triangles into tiles no longer than `size`.
 void cut(const Scene& scene, std::span<const float> areas, float size, Patches& patches) {
   const std::size_t count = scene.triangles.size();
   patches.cuts_of_triangle.resize(count);
   for (std::uint32_t t = 0; t < count; ++t) {
-    const float cuts = std::clamp(std::ceil(longest_edge(scene, t) / size), 1.0F, static_cast<float>(kMaxCuts));
-    patches.cuts_of_triangle[t] = areas[t] > 0.0F ? static_cast<std::uint32_t>(cuts) : 0U;
+    patches.cuts_of_triangle[t] = cuts_for(scene, areas, t, size);
   }
   patches.first_tile_of_triangle.resize(count + 1);
   std::uint64_t tiles = 0;
@@ -85,8 +91,8 @@ void cut(const Scene& scene, std::span<const float> areas, float size, Patches& 
 std::uint64_t tile_count(const Scene& scene, std::span<const float> areas, float size) {
   std::uint64_t tiles = 0;
   for (std::uint32_t t = 0; t < areas.size(); ++t) {
-    const float cuts = std::clamp(std::ceil(longest_edge(scene, t) / size), 1.0F, static_cast<float>(kMaxCuts));
-    if (areas[t] > 0.0F) tiles += static_cast<std::uint64_t>(cuts) * static_cast<std::uint64_t>(cuts);
+    const std::uint64_t cuts = cuts_for(scene, areas, t, size);
+    tiles += cuts * cuts;
   }
   return tiles;
 }
