@@ -166,6 +166,8 @@ Rgb mean_emission(const Scene& scene, std::uint32_t triangle, const SubTriangle&
   return glm::max(emission, Rgb(0.0F));
 }
 
+Rgb sky_luminance(const Scene& scene, const glm::vec3& /*direction*/) { return scene.sky; }
+
 bool lets_through(const Scene& scene, std::uint32_t triangle, Barycentrics at, float threshold) {
   if (!surface_of(scene, triangle).see_through) {
     return false;

@@ -103,6 +103,9 @@ Rgb mean_reflectance(const Scene& scene, std::uint32_t triangle, const SubTriang
 /// Emitted luminance averaged over a part of a triangle, cd/m2.
 Rgb mean_emission(const Scene& scene, std::uint32_t triangle, const SubTriangle& part);
 
+/// Luminance that the open sky shows in a direction (unit, away from the viewer), cd/m2.
+Rgb sky_luminance(const Scene& scene, const glm::vec3& direction);
+
 /// Whether light passes through `triangle` at `at`. A partly opaque surface lets a ray through if its opacity is not
 /// above the ray's `threshold`: spread thresholds evenly over [0,1) and (1 - opacity) of the rays pass.
 bool lets_through(const Scene& scene, std::uint32_t triangle, Barycentrics at, float threshold);
