@@ -6,8 +6,10 @@
 #include <memory>
 
 #include "core/mesh/patches.h"
+#include "core/reconstruct/fit_vertices.h"
 #include "core/reconstruct/gather.h"
 #include "core/reconstruct/interpolate_vertices.h"
+#include "core/reconstruct/samples.h"
 #include "core/transport/direct_light.h"
 #include "core/transport/energy_balance.h"
 #include "core/transport/sky_light.h"
@@ -30,7 +32,7 @@ bool use_raster(const Scene& scene, const BakeOptions& options) {
 }
 
 BakeReport describe(const RefinedMesh& mesh, const Patches& patches, const Solution& solution,
-                    const EnergyBalance& balance, const ElementLight& light) {
+                    const EnergyBalance& balance, const Samples& samples) {
   BakeReport report;
   report.patch_count = patches.patch_count();
   report.element_count = static_cast<std::uint32_t>(mesh.elements.size());
@@ -40,7 +42,7 @@ BakeReport describe(const RefinedMesh& mesh, const Patches& patches, const Solut
   report.emitted_flux = balance.emitted;
   report.absorbed_flux = balance.absorbed;
   report.escaped_flux = balance.escaped;
-  report.buried_element_count = static_cast<std::uint32_t>(std::count(light.buried.begin(), light.buried.end(), 1));
+  report.buried_element_count = static_cast<std::uint32_t>(std::count(samples.buried.begin(), samples.buried.end(), 1));
   report.degenerate_triangle_count = patches.degenerate_triangle_count;
   report.reflectance_clamped_area = patches.reflectance_clamped_area;
   report.lit = balance.emitted > 0.0 || !patches.lamps.empty();
@@ -52,10 +54,10 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
   Bake result;
   Subdivision subdivision = subdivide(scene, options, progress);
   result.mesh = std::move(subdivision.mesh);
-  const Patches patches = make_patches(scene, {options.max_patches}, progress);
+  const RayScene rays(scene);
+  const Patches patches = make_patches(rays, {options.max_patches, 1}, progress);
 
   // Visibility.
-  const RayScene rays(scene);
   const bool raster = use_raster(scene, options);
   const auto items = raster ? make_item_buffer_raster(scene) : make_item_buffer_rays(rays);
   const Hemicube patch_hemicube(options.hemicube_resolution);
@@ -70,16 +72,19 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
   const Solution solution = options.solver == Solver::kGathering ? solve_gathering(problem, rows, progress)
                                                                  : solve_progressive(problem, rows, progress);
 
-  // Reconstruction: light at elements, then at vertices. Elements average over their neighbours' hemicubes, so theirs
-  // are half as wide.
-  const Hemicube element_hemicube(std::max(2, options.hemicube_resolution / 4 * 2));
+  // Reconstruction: light at samples inside the elements, then at vertices. A fit averages over many samples, so their
+  // hemicubes are half as wide.
+  const Hemicube sample_hemicube(std::max(2, options.hemicube_resolution / 4 * 2));
   const Gatherer gatherer{
-      scene, patches, element_hemicube, *items, direct_light, solution.radiosity, surface_offset(scene)};
-  const ElementLight light = gather_elements(result.mesh, gatherer, progress);
-  result.irradiance = interpolate_vertices(result.mesh, light);
+      scene, patches, sample_hemicube, *items, direct_light, solution.radiosity, surface_offset(scene)};
+  const Samples samples = gather_samples(result.mesh, gatherer, {}, progress);
+  progress.update("fit", 0.0);
+  result.irradiance = options.fit == Fit::kInterpolate ? interpolate_vertices(result.mesh, mean_of_samples(samples))
+                                                       : fit_vertices(result.mesh, samples, {});
+  progress.update("fit", 1.0);
 
   const EnergyBalance balance = energy_balance(problem, solution, rows);
-  result.report = describe(result.mesh, patches, solution, balance, light);
+  result.report = describe(result.mesh, patches, solution, balance, samples);
   result.report.reached_element_limit = subdivision.reached_limit;
   result.report.visibility = raster ? Visibility::kRaster : Visibility::kRays;
   return result;

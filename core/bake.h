@@ -18,14 +18,18 @@ enum class Visibility : std::uint8_t { kAuto, kRaster, kRays };
 /// Which method solves for the light between the patches.
 enum class Solver : std::uint8_t { kProgressive, kGathering };
 
+/// How samples become light at vertices.
+enum class Fit : std::uint8_t { kLeastSquares, kInterpolate };
+
 struct BakeOptions {
   SubdivideOptions subdivide;    ///< how the display mesh is cut
   bool refine_uniform = true;    ///< false keeps the scene's own triangles as elements
-  int hemicube_resolution = 32;  ///< cells along one edge of a hemicube, even, >= 2
+  int hemicube_resolution = 16;  ///< cells along one edge of a hemicube, even, >= 2
   Visibility visibility = Visibility::kAuto;
-  Solver solver = Solver::kProgressive;
+  Solver solver = Solver::kGathering;
+  Fit fit = Fit::kLeastSquares;
   float residual = 0.001F;  ///< stop when this share of the emitted flux is still unshot, (0,1)
-  int max_patches = 4000;   ///< patches that send light; more see finer indirect light
+  int max_patches = 25'000;   ///< patches that send light; more see finer indirect light
   std::size_t row_cache_bytes = std::size_t{1} << 30;  ///< memory for rows of form factors
   int threads = 0;                                     ///< 0 uses every core; the result does not depend on it
 };

@@ -10,7 +10,7 @@ namespace radiosity {
 namespace {
 
 /// Surface offset as a share of the scene's diagonal: a tenth of a millimetre in a room 10 m across.
-constexpr float kOffsetPerDiagonal = 1e-5F;
+constexpr float kOffsetPerDiagonal = 2e-5F;
 
 /// Surface offset in rounding steps of the largest coordinate. Far from the origin positions are coarse, and a hit
 /// point computed from them is off by a few such steps.

@@ -38,7 +38,7 @@ struct Surface {
 };
 
 /// The largest reflectance that light transport accepts: a closed room with more never grows dark.
-inline constexpr float kMaxReflectance = 0.98F;
+inline constexpr float kMaxReflectance = 0.99F;
 
 /// Answers for surfaces that vary from point to point (textures, vertex colours).
 ///

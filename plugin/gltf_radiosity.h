@@ -49,11 +49,11 @@ struct Options {
   Metals metals = Metals::kDiffuse;
   LightUnits light_units = LightUnits::kAuto;
   // Transport
-  int hemicube = 32;  ///< cells along one edge, even, [2, 512]
+  int hemicube = 16;  ///< cells along one edge, even, [2, 512]
   VisibilityMethod visibility = VisibilityMethod::kAuto;
-  SolverMethod solver = SolverMethod::kProgressive;
+  SolverMethod solver = SolverMethod::kGathering;
   double residual = 0.001;  ///< stop at this share of unshot flux, (0, 1)
-  int max_patches = 4000;
+  int max_patches = 25'000;
   int threads = 0;  ///< 0: every core
   // Output
   std::optional<double> exposure;  ///< k, m2/cd; none chooses automatically

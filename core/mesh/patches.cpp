@@ -8,13 +8,16 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "core/mesh/split_groups.h"
 #include "core/photometry.h"
 
 namespace radiosity {
 namespace {
 
-constexpr std::uint32_t kMaxCuts = 512;
 constexpr std::size_t kMaxTiles = 4'000'000;
+
+/// Length of a tile as a share of a patch: several tiles to a patch let it be split where a wall stands on it.
+constexpr float kTileLength = 0.5F;
 
 /// What tiles of one patch have in common.
 struct PatchKey {
@@ -34,14 +37,6 @@ struct PatchKeyHash {
   }
 };
 
-/// One tile of the scene with what grouping needs to know of it.
-struct Tile {
-  std::uint32_t triangle = 0;
-  SubTriangle part;
-  glm::vec3 centre{0.0F};
-  float area = 0.0F;
-};
-
 /// Which of the six axis directions a normal is closest to: neighbours that face the same way share a patch.
 std::uint32_t facing(const glm::vec3& normal) {
   const glm::vec3 size = glm::abs(normal);
@@ -53,161 +48,189 @@ std::uint32_t facing(const glm::vec3& normal) {
   return static_cast<std::uint32_t>(2 * axis + (normal[axis] < 0.0F ? 1 : 0));
 }
 
-float longest_edge(const Scene& scene, std::uint32_t triangle) {
-  const glm::uvec3& t = scene.triangles[triangle];
-  const glm::vec3 a = scene.positions[t.x], b = scene.positions[t.y], c = scene.positions[t.z];
-  return std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
-}
+/// Gives each side of each tile the group of its grid cell, surface, facing and side.
+class CellGroups {
+ public:
+  CellGroups(const Scene& scene, float size)
+      : scene_(scene),
+        size_(size),
+        // By an odd amount, so that walls at round coordinates do not fall between two cells.
+        origin_(glm::vec3(0.3819F, 0.2361F, 0.4143F) * size) {}
 
-std::vector<float> triangle_areas(const Scene& scene) {
-  std::vector<float> areas(scene.triangles.size());
-  for (std::uint32_t t = 0; t < areas.size(); ++t) areas[t] = 0.5F * glm::length(scaled_normal(scene, t));
-  return areas;
-}
-
-/// How often the edges of a triangle are cut so that its tiles are no longer than `size`; 0 without area.
-std::uint32_t cuts_for(const Scene& scene, std::span<const float> areas, std::uint32_t triangle, float size) {
-  if (!(areas[triangle] > 0.0F)) return 0;
-  const float cuts = std::ceil(longest_edge(scene, triangle) / size);
-  return static_cast<std::uint32_t>(std::clamp(cuts, 1.0F, static_cast<float>(kMaxCuts)));
-}
-
-/// Cuts triangles into tiles no longer than `size`.
-void cut(const Scene& scene, std::span<const float> areas, float size, Patches& patches) {
-  const std::size_t count = scene.triangles.size();
-  patches.cuts_of_triangle.resize(count);
-  for (std::uint32_t t = 0; t < count; ++t) {
-    patches.cuts_of_triangle[t] = cuts_for(scene, areas, t, size);
-  }
-  patches.first_tile_of_triangle.resize(count + 1);
-  std::uint64_t tiles = 0;
-  for (std::size_t t = 0; t < count; ++t) {
-    patches.first_tile_of_triangle[t] = static_cast<std::uint32_t>(tiles);
-    tiles += std::uint64_t{patches.cuts_of_triangle[t]} * patches.cuts_of_triangle[t];
-  }
-  patches.first_tile_of_triangle[count] = static_cast<std::uint32_t>(tiles);
-}
-
-std::uint64_t tile_count(const Scene& scene, std::span<const float> areas, float size) {
-  std::uint64_t tiles = 0;
-  for (std::uint32_t t = 0; t < areas.size(); ++t) {
-    const std::uint64_t cuts = cuts_for(scene, areas, t, size);
-    tiles += cuts * cuts;
-  }
-  return tiles;
-}
-
-Tile make_tile(const Scene& scene, std::span<const float> areas, std::uint32_t triangle, std::uint32_t cuts,
-               std::uint32_t index) {
-  Tile tile{triangle, tile_part(cuts, index), {}, areas[triangle] / static_cast<float>(cuts * cuts)};
-  const Barycentrics middle = (tile.part.corner[0] + tile.part.corner[1] + tile.part.corner[2]) / 3.0F;
-  tile.centre = point_at(scene, triangle, middle);
-  return tile;
-}
-
-template <typename Visit>
-void for_each_tile(const Scene& scene, std::span<const float> areas, const Patches& patches, const Visit& visit) {
-  std::uint32_t index = 0;
-  for (std::uint32_t t = 0; t < areas.size(); ++t) {
-    const std::uint32_t cuts = patches.cuts_of_triangle[t];
-    for (std::uint32_t k = 0; k < cuts * cuts; ++k) visit(index++, make_tile(scene, areas, t, cuts, k));
-  }
-}
-
-/// Gives each tile the patch of its grid cell, surface, facing and side. Returns the number of patches.
-std::uint32_t group(const Scene& scene, std::span<const float> areas, Patches& patches) {
-  std::unordered_map<PatchKey, std::uint32_t, PatchKeyHash> patch_of_key;
-  const std::uint32_t tiles = patches.first_tile_of_triangle.back();
-  patches.patch_of_tile.assign(tiles, kNothing);
-  patches.back_patch_of_tile.assign(tiles, kNothing);
-
-  // Off the origin by an odd amount, so that walls at round coordinates do not fall between two cells.
-  const glm::vec3 origin = glm::vec3(0.3819F, 0.2361F, 0.4143F) * patches.size;
-  for_each_tile(scene, areas, patches, [&](std::uint32_t index, const Tile& tile) {
-    const glm::vec3 place = glm::floor((tile.centre - origin) / patches.size);
+  std::uint32_t group_of(const Tile& tile, bool back) {
+    const glm::vec3 place = glm::floor((point_at(scene_, tile.triangle, middle_of(tile.part)) - origin_) / size_);
     PatchKey key;
     for (int k = 0; k < 3; ++k) key.cell[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(place[k]);
-    const std::uint32_t surface = scene.surface_of_triangle[tile.triangle];
-    key.surface_and_side = (surface * 6 + facing(scaled_normal(scene, tile.triangle))) * 2;
-    const auto patch_of = [&](const PatchKey& k) {
-      return patch_of_key.try_emplace(k, static_cast<std::uint32_t>(patch_of_key.size())).first->second;
-    };
-    patches.patch_of_tile[index] = patch_of(key);
-    if (scene.surfaces[surface].two_sided) {
-      ++key.surface_and_side;
-      patches.back_patch_of_tile[index] = patch_of(key);
-    }
-  });
-  return static_cast<std::uint32_t>(patch_of_key.size());
+    const std::uint32_t surface = scene_.surface_of_triangle[tile.triangle];
+    key.surface_and_side = (surface * 6 + facing(scaled_normal(scene_, tile.triangle))) * 2 + (back ? 1 : 0);
+    return group_of_key_.try_emplace(key, count()).first->second;
+  }
+  std::uint32_t count() const { return static_cast<std::uint32_t>(group_of_key_.size()); }
+
+ private:
+  const Scene& scene_;
+  float size_;
+  glm::vec3 origin_;
+  std::unordered_map<PatchKey, std::uint32_t, PatchKeyHash> group_of_key_;
+};
+
+bool is_two_sided(const Scene& scene, std::uint32_t triangle) {
+  return scene.surfaces[scene.surface_of_triangle[triangle]].two_sided;
 }
 
-/// Chooses which emissive tiles become lamps: those with most flux.
-std::vector<bool> choose_lamps(std::span<const float> flux_of_tile) {
-  std::vector<std::uint32_t> emissive;
-  for (std::uint32_t k = 0; k < flux_of_tile.size(); ++k) {
-    if (flux_of_tile[k] > 0.0F) emissive.push_back(k);
+/// The size of a grid cell that gives few enough groups, metres: splitting them will make more.
+float choose_size(const Scene& scene, std::span<const float> areas, int max_patches) {
+  constexpr double kGroupsPerPatch = 0.6;
+  const auto most = std::max(1U, static_cast<std::uint32_t>(kGroupsPerPatch * max_patches));
+  const double total_area = std::accumulate(areas.begin(), areas.end(), 0.0);
+  auto size = static_cast<float>(std::sqrt(total_area / (0.5 * max_patches)));
+  // One cell around everything cannot be merged further: as many groups as surfaces and facings.
+  for (const float largest = 4.0F * diagonal(scene); size < largest; size *= 1.15F) {
+    if (count_tiles(scene, areas, kTileLength * size) > std::max(kMaxTiles, 2 * areas.size())) continue;
+    CellGroups groups(scene, size);
+    for (const Tile& tile : make_tiles(scene, areas, kTileLength * size).leaves()) {
+      groups.group_of(tile, false);
+      if (is_two_sided(scene, tile.triangle)) groups.group_of(tile, true);
+      if (groups.count() > most) break;
+    }
+    if (groups.count() <= most) break;
   }
-  if (emissive.size() > kMaxLamps) {
-    std::nth_element(emissive.begin(), emissive.begin() + kMaxLamps, emissive.end(),
-                     [&](std::uint32_t a, std::uint32_t b) {
-                       return flux_of_tile[a] != flux_of_tile[b] ? flux_of_tile[a] > flux_of_tile[b] : a < b;
-                     });
-    emissive.resize(kMaxLamps);
+  return size;
+}
+
+/// Tiles, and the patches that their sides are grouped into.
+struct Grouping {
+  Tiling tiling;
+  std::vector<Survey> surveys;
+  std::vector<TileSide> sides;
+  Parts patches;
+};
+
+Grouping group(const RayScene& rays, std::span<const float> areas, float size, const Progress& progress) {
+  const Scene& scene = rays.scene();
+  Grouping grouping{make_tiles(scene, areas, kTileLength * size), {}, {}, {}};
+  grouping.surveys = cut_straddling_tiles(rays, size, grouping.tiling, progress);
+  CellGroups groups(scene, size);
+  for (std::uint32_t k = 0; k < grouping.surveys.size(); ++k) {
+    const Tile& tile = grouping.surveys[k].tile;
+    for (int back = 0; back <= (is_two_sided(scene, tile.triangle) ? 1 : 0); ++back) {
+      grouping.sides.push_back({k, back != 0, groups.group_of(tile, back != 0), grouping.surveys[k].side[back]});
+    }
   }
-  std::vector<bool> lamp(flux_of_tile.size(), false);
-  for (const std::uint32_t k : emissive) lamp[k] = true;
-  return lamp;
+  grouping.patches = split_groups(rays, {grouping.sides, groups.count(), size}, progress);
+  return grouping;
+}
+
+void assign(const Grouping& grouping, Patches& patches) {
+  patches.patch_of_tile.assign(grouping.tiling.first_child.size(), kNothing);
+  patches.back_patch_of_tile.assign(grouping.tiling.first_child.size(), kNothing);
+  for (std::size_t s = 0; s < grouping.sides.size(); ++s) {
+    const TileSide& side = grouping.sides[s];
+    std::vector<std::uint32_t>& of_tile = side.back ? patches.back_patch_of_tile : patches.patch_of_tile;
+    of_tile[grouping.surveys[side.survey].tile.tile] = grouping.patches.part_of_side[s];
+  }
 }
 
 bool emits(const Surface& surface) { return surface.varies || luminance_of(surface.emission) > 0.0F; }
 
-/// Sums reflectance and emission of the tiles into their patches, and sets lamps apart.
-void average(const Scene& scene, std::span<const float> areas, std::uint32_t patch_count, Patches& patches) {
-  // Emission of each tile decides whether it is a lamp.
-  std::vector<float> flux(patches.patch_of_tile.size(), 0.0F);
-  for_each_tile(scene, areas, patches, [&](std::uint32_t index, const Tile& tile) {
-    if (!emits(scene.surfaces[scene.surface_of_triangle[tile.triangle]])) return;
-    flux[index] = luminance_of(mean_emission(scene, tile.triangle, tile.part)) * tile.area;
-  });
-  const std::vector<bool> is_lamp = choose_lamps(flux);
+/// Sums per patch, on both sides.
+struct Sums {
+  explicit Sums(std::uint32_t patch_count)
+      : area(patch_count, 0.0), reflectance(patch_count, glm::dvec3(0.0)), glow(patch_count, glm::dvec3(0.0)) {}
+  std::vector<double> area;
+  std::vector<glm::dvec3> reflectance, glow;
+};
 
-  // Sums over tiles, on both sides.
-  std::vector<double> area(patch_count, 0.0);
-  std::vector<glm::dvec3> reflectance(patch_count, glm::dvec3(0.0)), glow(patch_count, glm::dvec3(0.0));
-  for_each_tile(scene, areas, patches, [&](std::uint32_t index, const Tile& tile) {
-    const Surface& surface = scene.surfaces[scene.surface_of_triangle[tile.triangle]];
+/// Calls visit(patch) for the patches at a place of a triangle that send light.
+template <typename Visit>
+void for_both_sides(const Patches& patches, std::uint32_t triangle, Barycentrics at, const Visit& visit) {
+  for (const bool back : {false, true}) {
+    const std::uint32_t patch = patches.patch_at(triangle, at, back);
+    if (patch != kNothing) visit(patch);
+  }
+}
+
+void sum_reflectance(const Scene& scene, std::span<const Survey> surveys, Patches& patches, Sums& sums) {
+  for (const auto& [tile, sides] : surveys) {
     const Rgb rho = mean_reflectance(scene, tile.triangle, tile.part);
-    if (std::max({rho.x, rho.y, rho.z}) >= kMaxReflectance) patches.reflectance_clamped_area += tile.area;
-    const Rgb luminance = flux[index] > 0.0F ? mean_emission(scene, tile.triangle, tile.part) : Rgb(0.0F);
-    if (is_lamp[index]) {
-      EmissiveTile lamp{{}, luminance, surface.two_sided, patches.patch_of_tile[index]};
-      for (int k = 0; k < 3; ++k) lamp.corner[k] = point_at(scene, tile.triangle, tile.part.corner[k]);
-      patches.lamps.push_back(lamp);
-    }
-    for (const std::uint32_t patch : {patches.patch_of_tile[index], patches.back_patch_of_tile[index]}) {
+    if (std::max({rho.x, rho.y, rho.z}) >= kMaxReflectance) patches.reflectance_clamped_area += double{tile.area};
+    for (const std::uint32_t patch : {patches.patch_of_tile[tile.tile], patches.back_patch_of_tile[tile.tile]}) {
       if (patch == kNothing) continue;
-      area[patch] += tile.area;
-      reflectance[patch] += glm::dvec3(rho) * double{tile.area};
-      if (!is_lamp[index]) glow[patch] += glm::dvec3(luminance) * double{tile.area};
+      sums.area[patch] += double{tile.area};
+      sums.reflectance[patch] += glm::dvec3(rho) * double{tile.area};
     }
-  });
+  }
+}
 
+/// A part of a triangle that emits, about as large as a patch.
+struct Emitter {
+  std::uint32_t triangle;
+  SubTriangle part;
+  Rgb luminance;
+  float area, flux;
+};
+
+std::vector<Emitter> find_emitters(const Scene& scene, const Patches& patches) {
+  std::vector<Emitter> emitters;
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
+    const float triangle_area = patches.tiling.area_of_triangle[t];
+    if (!(triangle_area > 0.0F) || !emits(scene.surfaces[scene.surface_of_triangle[t]])) continue;
+    const std::uint32_t cuts = cuts_for(scene, t, patches.size);
+    const float area = triangle_area / static_cast<float>(cuts * cuts);
+    for (std::uint32_t k = 0; k < cuts * cuts; ++k) {
+      const SubTriangle part = tile_part(cuts, k);
+      const Rgb luminance = mean_emission(scene, t, part);
+      const float flux = luminance_of(luminance) * area;
+      if (flux > 0.0F) emitters.push_back({t, part, luminance, area, flux});
+    }
+  }
+  return emitters;
+}
+
+/// The emitters with most flux become lamps, the others make their patches glow.
+void set_lamps_apart(const Scene& scene, Patches& patches, Sums& sums) {
+  std::vector<Emitter> emitters = find_emitters(scene, patches);
+  std::stable_sort(emitters.begin(), emitters.end(), [](const Emitter& a, const Emitter& b) { return a.flux > b.flux; });
+  double all = 0.0, glowing = 0.0;
+  for (std::size_t k = 0; k < emitters.size(); ++k) {
+    const Emitter& e = emitters[k];
+    const Surface& surface = scene.surfaces[scene.surface_of_triangle[e.triangle]];
+    const Barycentrics middle = middle_of(e.part);
+    all += double{e.flux};
+    if (k < kMaxLamps) {
+      EmissiveTile lamp{{}, e.luminance, surface.two_sided, patches.patch_at(e.triangle, middle, false)};
+      for (int c = 0; c < 3; ++c) lamp.corner[c] = point_at(scene, e.triangle, e.part.corner[c]);
+      patches.lamps.push_back(lamp);
+      continue;
+    }
+    glowing += double{e.flux};
+    for_both_sides(patches, e.triangle, middle, [&](std::uint32_t patch) {
+      sums.glow[patch] += glm::dvec3(e.luminance) * double{e.area};
+    });
+  }
+  patches.glow_share = all > 0.0 ? glowing / all : 0.0;
   std::stable_sort(patches.lamps.begin(), patches.lamps.end(),
                    [](const EmissiveTile& a, const EmissiveTile& b) { return a.patch < b.patch; });
+}
 
-  // Sums become means.
+/// Sets what patches are made of: means over their tiles.
+void average(const Scene& scene, const Grouping& grouping, Patches& patches) {
+  const std::uint32_t patch_count = grouping.patches.count;
+  Sums sums(patch_count);
+  sum_reflectance(scene, grouping.surveys, patches, sums);
+  set_lamps_apart(scene, patches, sums);
   patches.area.resize(patch_count);
   patches.reflectance.resize(patch_count);
   patches.glow.resize(patch_count);
   for (std::uint32_t p = 0; p < patch_count; ++p) {
-    patches.area[p] = static_cast<float>(area[p]);
-    patches.reflectance[p] = Rgb(reflectance[p] / area[p]);
-    patches.glow[p] = Rgb(glow[p] / area[p]);
+    patches.area[p] = static_cast<float>(sums.area[p]);
+    patches.reflectance[p] = Rgb(sums.reflectance[p] / sums.area[p]);
+    patches.glow[p] = Rgb(sums.glow[p] / sums.area[p]);
   }
 }
 
 /// Spreads `points_per_patch` points over each patch, evenly by area.
-void place_points(const Scene& scene, std::span<const float> areas, int points_per_patch, Patches& patches) {
+void place_points(const Scene& scene, std::span<const Survey> surveys, int points_per_patch, Patches& patches) {
   patches.points_per_patch = points_per_patch;
   const std::uint32_t patch_count = patches.patch_count();
   patches.points.resize(static_cast<std::size_t>(patch_count) * static_cast<std::size_t>(points_per_patch));
@@ -216,7 +239,7 @@ void place_points(const Scene& scene, std::span<const float> areas, int points_p
 
   const auto visit_side = [&](const Tile& tile, std::uint32_t patch, float side) {
     if (patch == kNothing) return;
-    covered[patch] += tile.area;
+    covered[patch] += double{tile.area};
     while (placed[patch] < points_per_patch) {
       const int k = placed[patch];
       const double wanted = (k + 0.5) / points_per_patch * double{patches.area[patch]};
@@ -236,41 +259,17 @@ void place_points(const Scene& scene, std::span<const float> areas, int points_p
       ++placed[patch];
     }
   };
-  for_each_tile(scene, areas, patches, [&](std::uint32_t index, const Tile& tile) {
-    visit_side(tile, patches.patch_of_tile[index], 1.0F);
-    visit_side(tile, patches.back_patch_of_tile[index], -1.0F);
-  });
+  for (const auto& [tile, sides] : surveys) {
+    visit_side(tile, patches.patch_of_tile[tile.tile], 1.0F);
+    visit_side(tile, patches.back_patch_of_tile[tile.tile], -1.0F);
+  }
 }
 
 }  // namespace
 
-SubTriangle tile_part(std::uint32_t cuts, std::uint32_t tile) {
-  // The row whose first tile is the last not beyond `tile`: rows start at j (2n - j).
-  std::uint32_t j = 0;
-  while ((j + 1) * (2 * cuts - (j + 1)) <= tile) ++j;
-  const std::uint32_t in_row = tile - j * (2 * cuts - j);
-  const float step = 1.0F / static_cast<float>(cuts);
-  const auto corner = [&](std::uint32_t x, std::uint32_t y) {
-    return Barycentrics(static_cast<float>(x) * step, static_cast<float>(y) * step);
-  };
-  const std::uint32_t i = in_row / 2;
-  if (in_row % 2 == 0) return {{corner(i, j), corner(i + 1, j), corner(i, j + 1)}};
-  return {{corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)}};
-}
-
-std::uint32_t tile_at(std::uint32_t cuts, Barycentrics at) {
-  const float n = static_cast<float>(cuts);
-  const float x = std::clamp(at.x, 0.0F, 1.0F) * n, y = std::clamp(at.y, 0.0F, 1.0F) * n;
-  const std::uint32_t j = std::min(static_cast<std::uint32_t>(y), cuts - 1);
-  const std::uint32_t i = std::min(static_cast<std::uint32_t>(x), cuts - 1 - j);
-  const bool upper = i + j + 1 < cuts && (x - static_cast<float>(i)) + (y - static_cast<float>(j)) > 1.0F;
-  return j * (2 * cuts - j) + 2 * i + (upper ? 1U : 0U);
-}
-
 std::uint32_t Patches::patch_at(std::uint32_t triangle, Barycentrics at, bool back) const {
-  const std::uint32_t cuts = cuts_of_triangle[triangle];
-  if (cuts == 0) return kNothing;
-  const std::uint32_t tile = first_tile_of_triangle[triangle] + tile_at(cuts, at);
+  const std::uint32_t tile = tiling.tile_at(triangle, at);
+  if (tile == kNothing) return kNothing;
   return back ? back_patch_of_tile[tile] : patch_of_tile[tile];
 }
 
@@ -279,35 +278,23 @@ std::span<const SurfacePoint> Patches::points_of(std::uint32_t patch) const {
   return std::span(points).subspan(patch * count, count);
 }
 
-Patches make_patches(const Scene& scene, const PatchOptions& options, const Progress& progress) {
+Patches make_patches(const RayScene& rays, const PatchOptions& options, const Progress& progress) {
   progress.update("patches", 0.0);
+  const Scene& scene = rays.scene();
   Patches patches;
   const std::vector<float> areas = triangle_areas(scene);
-  const double total_area = std::accumulate(areas.begin(), areas.end(), 0.0);
   patches.degenerate_triangle_count = static_cast<std::uint32_t>(std::count(areas.begin(), areas.end(), 0.0F));
-  if (!(total_area > 0.0)) {
-    cut(scene, areas, 1.0F, patches);
+  if (patches.degenerate_triangle_count == areas.size()) {
+    patches.tiling = make_tiles(scene, areas, 1.0F);
     return patches;
   }
-
-  // Grow the cells until few enough patches remain. Two thirds of the allowed number is a first guess for flat walls,
-  // which cells cut into squares and leftovers.
-  const auto wanted = static_cast<double>(options.max_patches) * 2.0 / 3.0;
-  patches.size = static_cast<float>(std::sqrt(total_area / wanted));
-  std::uint32_t patch_count = 0;
-  for (;; patches.size *= 1.25F) {
-    progress.update("patches", 0.1);
-    if (tile_count(scene, areas, patches.size) > std::max(kMaxTiles, 2 * areas.size())) continue;
-    cut(scene, areas, patches.size, patches);
-    patch_count = group(scene, areas, patches);
-    if (patch_count <= static_cast<std::uint32_t>(options.max_patches)) break;
-    // One cell around everything cannot be merged further: as many patches as surfaces and facings.
-    if (patches.size > 4.0F * diagonal(scene)) break;
-  }
-
-  progress.update("patches", 0.5);
-  average(scene, areas, patch_count, patches);
-  place_points(scene, areas, options.points_per_patch, patches);
+  patches.size = choose_size(scene, areas, options.max_patches);
+  Grouping grouping = group(rays, areas, patches.size, progress);
+  assign(grouping, patches);
+  patches.tiling = std::move(grouping.tiling);
+  progress.update("patches", 0.9);
+  average(scene, grouping, patches);
+  place_points(scene, grouping.surveys, options.points_per_patch, patches);
   progress.update("patches", 1.0);
   return patches;
 }

@@ -1,15 +1,9 @@
 // Patches: the coarse, nearly flat groups of surface that send light as a unit.
 //
-// Every triangle is cut into n x n congruent tiles small enough for a patch; tiles of one surface that lie in the same
-// cell of a regular grid and face the same way form a patch. So large triangles are cut and dense meshes are grouped by
-// one rule, the cost of the solution depends on neither, and the tile that a ray hits follows from its barycentric
-// coordinates by arithmetic:
-//
-//        /\          j = 1                                                                                            .
-//       /__\                          tile (i, j, upper) of a triangle cut n = 2 times;                               .
-//      /\  /\        j = 0            numbered by rows: j (2n - j) + 2i + upper                                       .
-//     /__\/__\                                                                                                        .
-//      i=0 i=1
+// Every triangle is cut into congruent tiles half as long as a patch (tiles.h); tiles of one surface that lie in the
+// same cell of a regular grid, face the same way and see each other (split_groups.h) form a patch. So large triangles
+// are cut and dense meshes are grouped by one rule, the cost of the solution depends on neither, and the patch that a
+// ray hits follows from its barycentric coordinates by arithmetic.
 //
 // A surface that sends on both sides has two patches at each place, one for either side.
 #pragma once
@@ -18,8 +12,10 @@
 #include <span>
 #include <vector>
 
+#include "core/mesh/tiles.h"
 #include "core/progress.h"
 #include "core/scene.h"
+#include "core/visibility/ray_scene.h"
 
 namespace radiosity {
 
@@ -46,8 +42,7 @@ struct PatchOptions {
 struct Patches {
   float size = 0.0F;  ///< edge of the grid's cells, metres
 
-  std::vector<std::uint32_t> cuts_of_triangle;  ///< n: the triangle has n * n tiles; 0 for triangles without area
-  std::vector<std::uint32_t> first_tile_of_triangle;
+  Tiling tiling;
   std::vector<std::uint32_t> patch_of_tile;       ///< the patch of the front
   std::vector<std::uint32_t> back_patch_of_tile;  ///< the patch of the back; kNothing where the back only blocks
 
@@ -57,9 +52,10 @@ struct Patches {
   std::vector<SurfacePoint> points;  ///< [patch_count() * points_per_patch]
   int points_per_patch = 0;
 
-  /// What emits, as far as it is worth shadow rays: the tiles with most flux, at most kMaxLamps, ordered by patch.
-  /// Patches keep the emission of the remaining tiles as `glow`, which hemicubes see.
+  /// What emits, as far as it is worth shadow rays: the parts with most flux, at most kMaxLamps, ordered by patch.
+  /// Patches keep the emission of the rest as `glow`, which hemicubes see.
   std::vector<EmissiveTile> lamps;
+  double glow_share = 0.0;  ///< how much of the emitted flux is left to `glow`, [0,1]
 
   double reflectance_clamped_area = 0.0;  ///< m2 whose reflectance was lowered to kMaxReflectance
   std::uint32_t degenerate_triangle_count = 0;
@@ -72,13 +68,7 @@ struct Patches {
 
 inline constexpr std::size_t kMaxLamps = 8192;
 
-/// Part of its triangle that a tile covers. REQUIRES: tile < cuts * cuts.
-SubTriangle tile_part(std::uint32_t cuts, std::uint32_t tile);
-
-/// The tile of a triangle cut `cuts` times that holds a point.
-std::uint32_t tile_at(std::uint32_t cuts, Barycentrics at);
-
-/// Deterministic; linear in the number of tiles. Throws `Cancelled`.
-Patches make_patches(const Scene& scene, const PatchOptions& options, const Progress& progress);
+/// The patches of the scene of `rays`. Deterministic; linear in the number of tiles. Throws `Cancelled`.
+Patches make_patches(const RayScene& rays, const PatchOptions& options, const Progress& progress);
 
 }  // namespace radiosity

@@ -7,11 +7,8 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "core/mesh/patches.h"
-#include "core/mesh/refined_mesh.h"
-#include "core/progress.h"
 #include "core/transport/direct_light.h"
 #include "core/visibility/hemicube.h"
 #include "core/visibility/item_buffer.h"
@@ -40,15 +37,5 @@ struct Gatherer {
   /// `index` picks the twist and the place in the low-discrepancy sequences.
   Gathered at(const SurfacePoint& point, std::uint32_t index) const;
 };
-
-/// Light per element, [element_count].
-struct ElementLight {
-  std::vector<Rgb> irradiance;       ///< mean H over the samples that are not buried, lx
-  std::vector<std::uint8_t> buried;  ///< 1 where every sample is buried or the element has no area: no light is known
-};
-
-/// Gathers at samples inside each element, more where it is larger than a patch. A surface that is lit on both sides
-/// shows its front; its back where the front is buried. Parallel; throws `Cancelled`.
-ElementLight gather_elements(const RefinedMesh& mesh, const Gatherer& gatherer, const Progress& progress);
 
 }  // namespace radiosity

@@ -1,0 +1,194 @@
+#include "core/mesh/split_groups.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <tuple>
+
+#include "core/parallel.h"
+#include "core/visibility/hemicube.h"
+#include "core/visibility/occlusion.h"
+
+namespace radiosity {
+namespace {
+
+/// In shares of the size of a patch: what is nearer than this covers a tile, and lines of sight run this high.
+constexpr float kCover = 0.25F, kHeight = 0.1F;
+
+/// A tile is covered if this many of five rays (one along the normal, four slanted by 45 degrees) meet something near.
+constexpr int kCoveringRays = 4;
+
+/// Parts of one group at most: in a thicket nothing sees anything.
+constexpr std::size_t kMaxParts = 6;
+
+/// Tiles are not cut when they are shorter than twice this share of a patch.
+constexpr float kShortestTile = 1.0F / 16.0F;
+
+/// The surroundings of tiles, at the scale of a patch.
+class Surveyor {
+ public:
+  Surveyor(const RayScene& rays, float patch_size)
+      : rays_(rays), size_(patch_size), offset_(surface_offset(rays.scene())) {}
+
+  Lookout lookout(const Tile& tile, bool back) const {
+    const glm::vec3 normal = normal_of(tile, back);
+    const glm::vec3 from = point_at(rays_.scene(), tile.triangle, middle_of(tile.part)) + offset_ * normal;
+    const Frame axes = frame({from, normal, 0.0F});
+    const std::array<glm::vec3, 5> directions{normal, glm::normalize(normal + axes.u), glm::normalize(normal - axes.u),
+                                              glm::normalize(normal + axes.v), glm::normalize(normal - axes.v)};
+    std::array<ShadowRay, 5> rays;
+    std::array<std::uint8_t, 5> blocked{};
+    for (std::size_t k = 0; k < rays.size(); ++k) rays[k] = {from, directions[k], kCover * size_, 0.5F};
+    trace_shadow_rays(rays_, rays, blocked);
+    const bool covered = std::accumulate(blocked.begin(), blocked.end(), 0) >= kCoveringRays;
+    const float height = blocked[0] != 0 ? 0.0F : kHeight * size_;
+    return {from + height * normal, height, covered};
+  }
+
+  bool sees(const Lookout& a, const Lookout& b) const {
+    std::uint8_t blocked = 0;
+    const ShadowRay ray = sight(a.lifted, b.lifted);
+    trace_shadow_rays(rays_, {&ray, 1}, {&blocked, 1});
+    return blocked == 0;
+  }
+
+  /// Whether something stands on a tile: its corners and the middles of its edges are hidden from its middle.
+  bool straddles(const Tile& tile, bool back, const Lookout& middle) const {
+    const glm::vec3 lift = (offset_ + middle.height) * normal_of(tile, back);
+    const Barycentrics centre = middle_of(tile.part);
+    std::array<ShadowRay, 6> rays;
+    std::array<std::uint8_t, 6> blocked{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      // A little inside, where no neighbour stands on the edge.
+      const Barycentrics corner = glm::mix(tile.part.corner[k], centre, 0.05F);
+      const Barycentrics edge = glm::mix(0.5F * (tile.part.corner[k] + tile.part.corner[(k + 1) % 3]), centre, 0.05F);
+      rays[2 * k] = sight(middle.lifted, point_at(rays_.scene(), tile.triangle, corner) + lift);
+      rays[2 * k + 1] = sight(middle.lifted, point_at(rays_.scene(), tile.triangle, edge) + lift);
+    }
+    trace_shadow_rays(rays_, rays, blocked);
+    return std::accumulate(blocked.begin(), blocked.end(), 0) > 0;
+  }
+
+  bool may_be_cut(const Tile& tile) const {
+    return longest_edge(rays_.scene(), tile.triangle, tile.part) >= 2.0F * kShortestTile * size_;
+  }
+
+  /// The part that `lookout` belongs to; founds one if it sees none and there is room.
+  std::uint32_t join(const Lookout& lookout, std::vector<Lookout>& founders) const {
+    for (std::size_t part = 0; part < founders.size(); ++part) {
+      if (founders[part].covered == lookout.covered && sees(founders[part], lookout))
+        return static_cast<std::uint32_t>(part);
+    }
+    if (founders.size() < kMaxParts) {
+      founders.push_back(lookout);
+      return static_cast<std::uint32_t>(founders.size() - 1);
+    }
+    const auto order = [&](const Lookout& founder) {
+      return std::pair(founder.covered != lookout.covered, glm::distance(founder.lifted, lookout.lifted));
+    };
+    const auto nearest = std::min_element(founders.begin(), founders.end(),
+                                          [&](const Lookout& a, const Lookout& b) { return order(a) < order(b); });
+    return static_cast<std::uint32_t>(nearest - founders.begin());
+  }
+
+ private:
+  glm::vec3 normal_of(const Tile& tile, bool back) const {
+    const glm::vec3 scaled = scaled_normal(rays_.scene(), tile.triangle);
+    return glm::normalize(back ? -scaled : scaled);
+  }
+
+  ShadowRay sight(const glm::vec3& from, const glm::vec3& to) const {
+    const float distance = glm::distance(from, to);
+    return {from, (to - from) / std::max(distance, 1e-20F), std::max(0.0F, distance - 2.0F * offset_), 0.5F};
+  }
+
+  const RayScene& rays_;
+  float size_, offset_;
+};
+
+/// Sides sorted by group, and where each group starts, [count + 1].
+struct Sorted {
+  std::vector<std::uint32_t> side, first;
+};
+
+Sorted sort_by_group(const Groups& groups) {
+  Sorted sorted{std::vector<std::uint32_t>(groups.sides.size()), std::vector<std::uint32_t>(groups.count + 1, 0)};
+  for (const TileSide& side : groups.sides) ++sorted.first[side.group + 1];
+  std::partial_sum(sorted.first.begin(), sorted.first.end(), sorted.first.begin());
+  std::vector<std::uint32_t> next(sorted.first.begin(), sorted.first.end() - 1);
+  for (std::uint32_t s = 0; s < groups.sides.size(); ++s) sorted.side[next[groups.sides[s].group]++] = s;
+  return sorted;
+}
+
+}  // namespace
+
+std::vector<Survey> cut_straddling_tiles(const RayScene& rays, float patch_size, Tiling& tiling,
+                                         const Progress& progress) {
+  const Scene& scene = rays.scene();
+  const Surveyor surveyor(rays, patch_size);
+  std::vector<Survey> surveys;
+  std::vector<Tile> tiles = tiling.leaves();
+  while (!tiles.empty()) {
+    // Look around.
+    std::vector<Survey> round(tiles.size());
+    std::vector<std::uint8_t> cut(tiles.size(), 0);
+    parallel_in_chunks(tiles.size(), 4096, progress, "patches", [&](std::size_t k) {
+      const Tile& tile = tiles[k];
+      round[k] = {tile, {}};
+      const bool may_be_cut = surveyor.may_be_cut(tile);
+      const bool two_sided = scene.surfaces[scene.surface_of_triangle[tile.triangle]].two_sided;
+      for (int back = 0; back <= (two_sided ? 1 : 0); ++back) {
+        Lookout& lookout = round[k].side[back];
+        lookout = surveyor.lookout(tile, back != 0);
+        if (may_be_cut && cut[k] == 0 && surveyor.straddles(tile, back != 0, lookout)) cut[k] = 1;
+      }
+    });
+
+    // Cut.
+    std::vector<Tile> next;
+    for (std::size_t k = 0; k < tiles.size(); ++k) {
+      if (cut[k] == 0) {
+        surveys.push_back(round[k]);
+        continue;
+      }
+      const auto child = static_cast<std::uint32_t>(tiling.first_child.size());
+      tiling.first_child[tiles[k].tile] = child;
+      tiling.first_child.resize(child + 4, kNothing);
+      for (std::uint32_t c = 0; c < 4; ++c) {
+        next.push_back({child + c, tiles[k].triangle, compose(tiles[k].part, tile_part(2, c)), 0.25F * tiles[k].area});
+      }
+    }
+    tiles = std::move(next);
+  }
+  return surveys;
+}
+
+Parts split_groups(const RayScene& rays, const Groups& groups, const Progress& progress) {
+  const Surveyor surveyor(rays, groups.size);
+  const Sorted sorted = sort_by_group(groups);
+  Parts parts{std::vector<std::uint32_t>(groups.sides.size(), 0), 0};
+  std::vector<std::uint32_t> part_count(groups.count, 0);
+  parallel_in_chunks(groups.count, 256, progress, "patches", [&](std::size_t group) {
+    // By place, so that the order of triangles does not decide who founds a part.
+    std::vector<std::uint32_t> members(sorted.side.begin() + sorted.first[group],
+                                       sorted.side.begin() + sorted.first[group + 1]);
+    std::sort(members.begin(), members.end(), [&](std::uint32_t a, std::uint32_t b) {
+      const glm::vec3 &p = groups.sides[a].lookout.lifted, &q = groups.sides[b].lookout.lifted;
+      return std::tie(p.x, p.y, p.z, a) < std::tie(q.x, q.y, q.z, b);
+    });
+    std::vector<Lookout> founders;
+    for (const std::uint32_t s : members) parts.part_of_side[s] = surveyor.join(groups.sides[s].lookout, founders);
+    part_count[group] = static_cast<std::uint32_t>(founders.size());
+  });
+
+  // Numbers within groups become numbers of all.
+  std::vector<std::uint32_t> first_part(groups.count, 0);
+  std::exclusive_scan(part_count.begin(), part_count.end(), first_part.begin(), 0U);
+  for (std::size_t s = 0; s < groups.sides.size(); ++s) parts.part_of_side[s] += first_part[groups.sides[s].group];
+  parts.count = std::accumulate(part_count.begin(), part_count.end(), 0U);
+  return parts;
+}
+
+}  // namespace radiosity

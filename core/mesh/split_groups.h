@@ -1,0 +1,65 @@
+// Tiles that lie close together but do not see the same light are kept apart.
+//
+// A grid cell (patches.h) may hold floor on both sides of a thin wall, the wall behind a panel, or the ground below a
+// crate. As one patch they would share their light: it leaks through. So
+//   - a tile is cut in four where something stands on it: its middle does not see its corners and edges; and
+//   - within a cell covered tiles are apart from open ones, and tiles go with the first tile that sees them, over a
+//     little height above the surface:
+//
+//           o - - - - - o            o - - -|- - - o
+//           |           |            |      |      |            o  lifted middles of tiles, - lines of sight
+//        ___|___________|___      ___|______|______|___
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/mesh/tiles.h"
+#include "core/progress.h"
+#include "core/visibility/ray_scene.h"
+
+namespace radiosity {
+
+/// The middle of one side of a tile, lifted off the surface, and its surroundings.
+struct Lookout {
+  glm::vec3 lifted{0.0F};  ///< metres
+  float height = 0.0F;     ///< metres above the surface, rounding apart
+  bool covered = false;    ///< something lies close above
+};
+
+/// A tile and what its front (0) and its back (1) see; the back only where it sends light.
+struct Survey {
+  Tile tile;
+  Lookout side[2];
+};
+
+/// Cuts tiles that something stands on, down to a sixteenth of the size of a patch (m), and describes all that remain.
+/// Throws `Cancelled`.
+std::vector<Survey> cut_straddling_tiles(const RayScene& rays, float patch_size, Tiling& tiling,
+                                         const Progress& progress);
+
+/// One side of a tile, and the group it is in.
+struct TileSide {
+  std::uint32_t survey = 0;  ///< index of its tile among the surveys
+  bool back = false;
+  std::uint32_t group = 0;
+  Lookout lookout;
+};
+
+struct Groups {
+  std::span<const TileSide> sides;
+  std::uint32_t count = 0;
+  float size = 0.0F;  ///< of a group, metres
+};
+
+/// Parts of groups whose tiles see each other, numbered from group to group.
+struct Parts {
+  std::vector<std::uint32_t> part_of_side;  ///< [sides.size()]
+  std::uint32_t count = 0;
+};
+
+/// Does not depend on the order of triangles within a group, nor on threads. Throws `Cancelled`.
+Parts split_groups(const RayScene& rays, const Groups& groups, const Progress& progress);
+
+}  // namespace radiosity

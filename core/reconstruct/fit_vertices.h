@@ -1,0 +1,28 @@
+// Samples inside elements -> light at vertices, by least squares.
+//
+// The light that is displayed is linear within each element. Among all such functions this one is closest to the
+// samples, in the sense of the area-weighted mean square, plus a little smoothness that decides where there are none:
+//
+//     sum over samples of w_s (x(s) - H_s)^2  +  damping * sum over elements of area * (differences along edges)^2
+//
+// Kavan, Bargteil and Sloan. Least Squares Vertex Baking. 2011
+#pragma once
+
+#include <vector>
+
+#include "core/mesh/refined_mesh.h"
+#include "core/reconstruct/samples.h"
+
+namespace radiosity {
+
+struct FitOptions {
+  double damping = 0.02;     ///< weight of smoothness against samples, > 0
+  int max_iterations = 200;  ///< of the conjugate gradients
+};
+
+/// Irradiance at each vertex, [vertex_count], lx, never negative. Vertices of a smooth group (smooth_groups.h) share a
+/// value; nothing crosses a crease. The area-weighted mean of the samples is kept, up to the share that would be
+/// negative. Vertices without samples around them continue their neighbours; what nothing known is joined to is black.
+std::vector<Rgb> fit_vertices(const RefinedMesh& mesh, const Samples& samples, const FitOptions& options);
+
+}  // namespace radiosity

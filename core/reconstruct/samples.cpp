@@ -1,0 +1,125 @@
+#include "core/reconstruct/samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numeric>
+
+#include "core/parallel.h"
+
+namespace radiosity {
+namespace {
+
+constexpr float kMaxSamplesPerElement = 64.0F;
+
+/// Sample `k` of the sequence that runs on from element to element: R2 (Roberts 2018), folded into a triangle, by the
+/// weights of the corners. Kept a little away from the edges, where walls meet.
+glm::vec3 corner_weights(std::uint32_t k) {
+  constexpr std::uint32_t kStepX = 3242174889U, kStepY = 2447445414U;  // in units of 2^-32
+  glm::vec2 at(static_cast<float>((k * kStepX) >> 8U) * 0x1p-24F, static_cast<float>((k * kStepY) >> 8U) * 0x1p-24F);
+  if (at.x + at.y > 1.0F) at = 1.0F - at;
+  at = glm::mix(glm::vec2(1.0F / 3.0F), at, 0.94F);
+  return {1.0F - at.x - at.y, at.x, at.y};
+}
+
+/// The shading normal at a place of an element. Corners without a normal, or whose normal points to the other side,
+/// count as flat.
+glm::vec3 shading_normal(const RefinedMesh& mesh, const glm::uvec3& element, const glm::vec3& weights,
+                         const glm::vec3& flat) {
+  glm::vec3 sum(0.0F);
+  for (int k = 0; k < 3; ++k) {
+    const glm::vec3& normal = mesh.normals[element[k]];
+    sum += weights[k] * (glm::dot(normal, flat) > 0.0F ? normal : flat);
+  }
+  return glm::normalize(sum);
+}
+
+/// Where the samples of each element start, [element_count + 1]. An element's share is rounded at its place in the
+/// running sum, so that many small elements get as many together as one large one.
+std::vector<std::uint32_t> allot(const RefinedMesh& mesh, const SampleOptions& options) {
+  const std::size_t count = mesh.elements.size();
+  std::vector<float> areas(count);
+  for (std::uint32_t e = 0; e < count; ++e) areas[e] = element_area(mesh, e);
+  const double total_area = std::accumulate(areas.begin(), areas.end(), 0.0);
+  const double ordinary = total_area / static_cast<double>(std::min(count, options.max_ordinary));
+
+  std::vector<std::uint32_t> first(count + 1, 0);
+  const bool every_element = count <= options.max_ordinary;
+  double due = 0.5;
+  for (std::size_t e = 0; e < count; ++e) {
+    double wanted = areas[e] > 0.0F ? options.per_element * double{areas[e]} / ordinary : 0.0;
+    if (every_element && areas[e] > 0.0F) wanted = std::max(wanted, double(options.per_element));
+    wanted = std::min(wanted, double{kMaxSamplesPerElement});
+    due += wanted;
+    const auto here = static_cast<std::uint32_t>(due);
+    due -= here;
+    first[e + 1] = first[e] + here;
+  }
+  return first;
+}
+
+/// What one sample sees, on the side that shows. Buried if that side is.
+Gathered gather_sample(const RefinedMesh& mesh, const Gatherer& gatherer, std::uint32_t e, std::uint32_t sample,
+                       const glm::vec3& weights) {
+  const glm::uvec3& element = mesh.elements[e];
+  const glm::vec3 a = mesh.positions[element.x], b = mesh.positions[element.y], c = mesh.positions[element.z];
+  const glm::vec3 flat = glm::normalize(glm::cross(b - a, c - a));
+  SurfacePoint point{weights.x * a + weights.y * b + weights.z * c, shading_normal(mesh, element, weights, flat)};
+  Gathered gathered = gatherer.at(point, sample);
+  const std::uint32_t surface = gatherer.scene.surface_of_triangle[mesh.triangle_of_element[e]];
+  if (gathered.back_share > kBuriedShare && gatherer.scene.surfaces[surface].two_sided) {
+    point.normal = -point.normal;
+    gathered = gatherer.at(point, sample);
+  }
+  return gathered;
+}
+
+}  // namespace
+
+Samples gather_samples(const RefinedMesh& mesh, const Gatherer& gatherer, const SampleOptions& options,
+                       const Progress& progress) {
+  // Everywhere.
+  const std::vector<std::uint32_t> first = allot(mesh, options);
+  const std::size_t count = mesh.elements.size(), sample_count = first.back();
+  std::vector<Rgb> irradiance(sample_count);
+  std::vector<std::uint8_t> buried(sample_count, 0);
+  parallel_in_chunks(count, 1024, progress, "gather", [&](std::size_t e) {
+    for (std::uint32_t s = first[e]; s < first[e + 1]; ++s) {
+      const Gathered gathered = gather_sample(mesh, gatherer, static_cast<std::uint32_t>(e), s, corner_weights(s));
+      irradiance[s] = gathered.irradiance;
+      buried[s] = gathered.back_share > kBuriedShare ? 1 : 0;
+    }
+  });
+
+  // Without the buried.
+  Samples samples;
+  samples.first_of_element.assign(count + 1, 0);
+  samples.buried.assign(count, 0);
+  for (std::size_t e = 0; e < count; ++e) {
+    for (std::uint32_t s = first[e]; s < first[e + 1]; ++s) {
+      if (buried[s] != 0) continue;
+      samples.weights.push_back(corner_weights(s));
+      samples.irradiance.push_back(irradiance[s]);
+    }
+    samples.first_of_element[e + 1] = static_cast<std::uint32_t>(samples.irradiance.size());
+    const bool none = samples.first_of_element[e + 1] == samples.first_of_element[e];
+    samples.buried[e] = none && first[e + 1] > first[e] ? 1 : 0;
+  }
+  return samples;
+}
+
+ElementLight mean_of_samples(const Samples& samples) {
+  const std::size_t count = samples.first_of_element.size() - 1;
+  ElementLight light{std::vector<Rgb>(count, Rgb(0.0F)), std::vector<std::uint8_t>(count, 1)};
+  for (std::size_t e = 0; e < count; ++e) {
+    const std::uint32_t first = samples.first_of_element[e], last = samples.first_of_element[e + 1];
+    if (first == last) continue;
+    for (std::uint32_t s = first; s < last; ++s) light.irradiance[e] += samples.irradiance[s];
+    light.irradiance[e] /= static_cast<float>(last - first);
+    light.unknown[e] = 0;
+  }
+  return light;
+}
+
+}  // namespace radiosity
