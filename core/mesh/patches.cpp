@@ -290,6 +290,11 @@ Patches make_patches(const RayScene& rays, const PatchOptions& options, const Pr
   }
   patches.size = choose_size(scene, areas, options.max_patches);
   Grouping grouping = group(rays, areas, patches.size, progress);
+  const auto most = static_cast<std::uint32_t>(options.max_patches);
+  while (grouping.patches.count > most && patches.size < 4.0F * diagonal(scene)) {
+    patches.size *= 1.25F;
+    grouping = group(rays, areas, patches.size, progress);
+  }
   assign(grouping, patches);
   patches.tiling = std::move(grouping.tiling);
   progress.update("patches", 0.9);
