@@ -12,10 +12,16 @@ import tempfile
 
 sys.dont_write_bytecode = True
 
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+sys.path.insert(0, str(ROOT / "test_assets"))
+
 from blender_colors import vertex_count, write_colored, write_for_blender  # noqa: E402
+from cornell_box import cornell_box  # noqa: E402
 from process import run  # noqa: E402
 
-HERE = pathlib.Path(__file__).resolve().parent
+# The scenes unless others are named, by their number of vertices.
+CORNELL_BOXES = [1500, 5000]
 # The file's own vertices at two qualities, and what one gets without any option.
 OUR_OPTIONS = ["--refine none --quality draft", "--refine none", ""]
 # Debian's Blender takes its Python from the path, and must not find another one there.
@@ -27,20 +33,21 @@ class Checker:
 
     def __init__(self, arguments):
         sky = ["--sky", arguments.sky] if arguments.sky else []
+        self.options = ["--points", arguments.points, *sky]
         if arguments.checker:
             self.command = [arguments.checker]
-            self.options = ["--points", arguments.points, "--spp", arguments.spp, *sky]
+            self.options += ["--spp", arguments.spp]
             self.rmse, self.p99 = "rel_rmse", "p99"
         else:
             self.command = [arguments.gltf_radiosity, "verify"]
-            self.options = ["--json", "-", *sky]
+            self.options += ["--json", "-", "--progress", "none"]
             self.rmse, self.p99 = "relativeRmse", "p99"
 
     def errors(self, scene, baked):
         """(relative RMSE, 99th percentile of the relative error)."""
         checked = run([*self.command, scene, baked, *self.options])
         if checked.failure:
-            raise RuntimeError(f"the checker failed: {checked.failure}")
+            sys.exit(f"{self.command[0]}: cannot compare {baked.name} with {scene.name}: {checked.failure}")
         report = json.loads(checked.stdout)
         return report[self.rmse], report[self.p99]
 
@@ -56,7 +63,7 @@ class Row:
     def cells(self, comparison):
         if self.failure:
             return [self.tool, self.how, "", f"{self.bake.cpu_s:.2f}", f"{self.bake.wall_s:.2f}", self.failure, "", ""]
-        figures = [f"{self.bake.cpu_s:.2f}", f"{self.bake.wall_s:.2f}", f"{self.rmse:.1%}", f"{self.p99:.0%}"]
+        figures = [f"{self.bake.cpu_s:.2f}", f"{self.bake.wall_s:.2f}", f"{100 * self.rmse:.1f} %", f"{100 * self.p99:.0f} %"]
         return [self.tool, self.how, str(self.vertices), *figures, comparison]
 
 
@@ -90,15 +97,15 @@ def bake_with_ours(scene, options, folder, arguments, checker):
 
 
 def compared(row, ours):
-    """How much more CPU time Blender took than the cheapest of our bakes that is at least as right."""
+    """How many times the CPU time of the cheapest of our bakes that is at least as right Blender took."""
     as_right = [other for other in ours if not other.failure and other.rmse <= row.rmse]
     if not as_right:
         return "none as right"
     cheapest = min(as_right, key=lambda other: other.bake.cpu_s)
-    return f"{row.bake.cpu_s / cheapest.bake.cpu_s:.3g} x {cheapest.how}"
+    return f"{row.bake.cpu_s / cheapest.bake.cpu_s:.1f} times that of {cheapest.how}"
 
 
-def compare(scene, arguments, checker):
+def compare(scene, folder, arguments, checker):
     print(f"\n{scene.stem}{', sky ' + arguments.sky if arguments.sky else ''}:\n")
     print("| tool | how | vertices | CPU s | wall s | RMSE | 99 % | Blender's CPU time at equal or lower error |")
     print("|---|---|---|---|---|---|---|---|", flush=True)
@@ -106,35 +113,44 @@ def compare(scene, arguments, checker):
     def show(row, comparison=""):
         print("| " + " | ".join(row.cells(comparison)) + " |", flush=True)
 
-    with tempfile.TemporaryDirectory(prefix="against_blender.") as temporary:
-        folder = pathlib.Path(arguments.keep or temporary) / scene.stem
-        folder.mkdir(parents=True, exist_ok=False)
-        ours, exposures = [], []
-        for options in arguments.ours or OUR_OPTIONS:
-            row, exposure = bake_with_ours(scene, options, folder, arguments, checker)
-            show(row)
-            ours.append(row)
-            exposures.append(exposure)
-        # One exposure for all, since both are clamped at white.
-        for samples in arguments.samples:
-            row = bake_with_blender(scene, samples, exposures[0], folder, arguments, checker)
-            show(row, "" if row.failure else compared(row, ours))
+    folder.mkdir(parents=True)
+    ours, exposures = [], []
+    for options in arguments.ours or OUR_OPTIONS:
+        row, exposure = bake_with_ours(scene, options, folder, arguments, checker)
+        show(row)
+        ours.append(row)
+        exposures.append(exposure)
+    # One exposure for all, since both are clamped at white.
+    for samples in arguments.samples:
+        row = bake_with_blender(scene, samples, exposures[0], folder, arguments, checker)
+        show(row, "" if row.failure else compared(row, ours))
+
+
+def cornell_boxes(folder):
+    """Writes them; answers their paths."""
+    paths = [folder / f"cornell_box_{vertices}.glb" for vertices in CORNELL_BOXES]
+    for vertices, path in zip(CORNELL_BOXES, paths):
+        cornell_box(vertices=vertices).save_glb(path)
+    return paths
 
 
 def parsed_arguments():
     parser = argparse.ArgumentParser(prog="against_blender", description=__doc__.splitlines()[0])
-    parser.add_argument("scenes", nargs="+", type=pathlib.Path, metavar="SCENE.glb")
-    parser.add_argument("--gltf-radiosity", required=True, metavar="PROGRAM")
+    parser.add_argument("scenes", nargs="*", type=pathlib.Path, metavar="SCENE.glb", help="default: two Cornell boxes")
+    program = ROOT / "build/release/tools/gltf-radiosity"
+    parser.add_argument("--gltf-radiosity", type=pathlib.Path, default=program, metavar="PROGRAM")
     parser.add_argument("--sky", metavar="R,G,B", help="luminance of the sky for every tool")
-    parser.add_argument("--samples", default="8,64,256,1024", help="samples per vertex for Blender (default: %(default)s)")
+    parser.add_argument("--samples", default="8,64,256,1024", help="samples per corner for Blender (default: %(default)s)")
     parser.add_argument("--bounces", type=int, default=16, help="bounces for Blender (default: %(default)s)")
     parser.add_argument("--ours", action="append", metavar="OPTIONS", help="options of one bake of ours; may be repeated")
     parser.add_argument("--checker", metavar="PROGRAM", help="instead of `gltf-radiosity verify`: IN OUT --points --spp")
-    parser.add_argument("--points", type=int, default=4000, help="for --checker (default: %(default)s)")
+    parser.add_argument("--points", type=int, default=4000, help="where errors are measured (default: %(default)s)")
     parser.add_argument("--spp", type=int, default=512, help="for --checker (default: %(default)s)")
     parser.add_argument("--time-limit", type=float, default=600, help="seconds for one bake (default: %(default)s)")
-    parser.add_argument("--keep", metavar="FOLDER", help="keep the baked files in a new folder")
+    parser.add_argument("--keep", type=pathlib.Path, metavar="FOLDER", help="keep the baked files in a new folder")
     arguments = parser.parse_args()
+    if not arguments.gltf_radiosity.exists():
+        parser.error(f"{arguments.gltf_radiosity}: no such program; build it or name it with --gltf-radiosity")
     arguments.samples = [int(count) for count in arguments.samples.split(",")]
     return arguments
 
@@ -144,9 +160,10 @@ def main():
     nothing = run([*BLENDER, "--python-expr", "pass"])
     if nothing.failure:
         sys.exit(f"blender: {nothing.failure}")
-    checker = Checker(arguments)
-    for scene in arguments.scenes:
-        compare(scene, arguments, checker)
+    with tempfile.TemporaryDirectory(prefix="against_blender.") as temporary:
+        folder = pathlib.Path(temporary)
+        for scene in arguments.scenes or cornell_boxes(folder):
+            compare(scene, (arguments.keep or folder) / scene.stem, arguments, Checker(arguments))
     print(f"\n{nothing.cpu_s:.2f} s of each of Blender's CPU times go into starting it.")
 
 
