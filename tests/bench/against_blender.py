@@ -18,7 +18,7 @@ sys.path.insert(0, str(ROOT / "test_assets"))
 
 from blender_colors import vertex_count, write_colored, write_for_blender  # noqa: E402
 from cornell_box import cornell_box  # noqa: E402
-from process import run  # noqa: E402
+from process import end_children_on_sigterm, run  # noqa: E402
 
 # The scenes unless others are named, by their number of vertices.
 CORNELL_BOXES = [1500, 5000]
@@ -157,6 +157,7 @@ def parsed_arguments():
 
 def main():
     arguments = parsed_arguments()
+    end_children_on_sigterm()
     nothing = run([*BLENDER, "--python-expr", "pass"])
     if nothing.failure:
         sys.exit(f"blender: {nothing.failure}")

@@ -1,10 +1,14 @@
-"""A room with a lamp and bumpy spheres, of any number of triangles up to millions, made in seconds."""
+"""A room with a lamp and bumpy spheres, of any number of triangles up to millions, made in seconds.
+
+    python3 bumpy_spheres.py OUT.glb TRIANGLES
+"""
 
 import array
 import math
 import pathlib
 import sys
 
+sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "test_assets"))
 
 from gltf_builder import ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER, FLOAT, UNSIGNED_INT, GltfBuilder  # noqa: E402
@@ -84,3 +88,7 @@ def _places(count):
         disorder = [0.2 * cell * (math.modf((number + 1) * ratio)[0] - 0.5) for ratio in (0.618034, 0.754878, 0.569840)]
         grid = ((i + 0.5) * ROOM[0] / side, (layer + 0.5) * 3.0 / layers, (k + 0.5) * ROOM[2] / side)
         yield [g + d for g, d in zip(grid, disorder)], 0.36 * cell, 2.4 * number
+
+
+if __name__ == "__main__":
+    write_bumpy_spheres(pathlib.Path(sys.argv[1]), int(sys.argv[2]))

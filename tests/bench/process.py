@@ -4,6 +4,7 @@ import dataclasses
 import os
 import signal
 import subprocess
+import sys
 import tempfile
 import threading
 import time
@@ -32,6 +33,11 @@ class Run:
             lines = [line for line in (self.stdout + self.stderr).splitlines() if "rror" in line]
             return f"exit code {self.returncode}" + (f": {lines[-1]}" if lines else "")
         return ""
+
+
+def end_children_on_sigterm():
+    """A script that is told to end takes what it runs with it, as it does on Ctrl-C. Call it once, from its main()."""
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
 
 
 def run(command, limit_s=None):
