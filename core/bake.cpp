@@ -65,7 +65,7 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
   RowCache rows(*row_source, options.row_cache_bytes);
 
   // Transport: direct light first, then the exchange between patches.
-  const DirectLight direct_light(rays, patches, {});
+  const DirectLight direct_light(rays, patches, {options.lamp_rays, std::max(1, options.lamp_rays / 4)});
   std::vector<Rgb> direct = direct_on_patches(direct_light, patches, progress);
   add_sky(scene.sky, rows, direct, progress);
   const SolveProblem problem{patches, direct, options.residual};
