@@ -54,27 +54,27 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
   result.mesh = std::move(subdivision.mesh);
   const Patches patches = make_patches(scene, {options.max_patches}, progress);
 
-  // Visibility.
+  // Visibility. Elements average over their neighbours' hemicubes, so theirs are half as wide.
   const RayScene rays(scene);
   const bool raster = use_raster(scene, options);
   const auto items = raster ? make_item_buffer_raster(scene) : make_item_buffer_rays(rays);
   const Hemicube patch_hemicube(options.hemicube_resolution);
-  const auto row_source = make_hemicube_rows(patches, patch_hemicube, *items, surface_offset(scene));
+  const Hemicube element_hemicube(std::max(2, options.hemicube_resolution / 4 * 2));
+  const SmoothSky sky(scene.sky, element_hemicube.resolution());
+  const auto row_source = make_hemicube_rows(patches, patch_hemicube, *items, sky, surface_offset(scene));
   RowCache rows(*row_source, options.row_cache_bytes);
 
   // Transport: direct light first, then the exchange between patches.
   const DirectLight direct_light(rays, patches, {});
   std::vector<Rgb> direct = direct_on_patches(direct_light, patches, progress);
-  add_sky(scene.sky, rows, direct, progress);
+  add_sky(sky, rows, direct, progress);
   const SolveProblem problem{patches, direct, options.residual};
   const Solution solution = options.solver == Solver::kGathering ? solve_gathering(problem, rows, progress)
                                                                  : solve_progressive(problem, rows, progress);
 
-  // Reconstruction: light at elements, then at vertices. Elements average over their neighbours' hemicubes, so theirs
-  // are half as wide.
-  const Hemicube element_hemicube(std::max(2, options.hemicube_resolution / 4 * 2));
-  const Gatherer gatherer{
-      scene, patches, element_hemicube, *items, direct_light, solution.radiosity, surface_offset(scene)};
+  // Reconstruction: light at elements, then at vertices.
+  const Gatherer gatherer{scene,        patches, element_hemicube,   *items,
+                          direct_light, sky,     solution.radiosity, surface_offset(scene)};
   const ElementLight light = gather_elements(result.mesh, gatherer, progress);
   result.irradiance = interpolate_vertices(result.mesh, light);
 

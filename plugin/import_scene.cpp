@@ -277,7 +277,7 @@ class SceneImporter {
       for (int band = 0; band < 3; ++band) {
         const double value = (*options_.sky)[static_cast<std::size_t>(band)];
         if (!(value >= 0.0 && value < 1e30)) return Error{ErrorCode::kBadOption, "sky", "is negative or not finite"};
-        scene.sky[band] = static_cast<float>(value);
+        scene.sky.luminance[band] = static_cast<float>(value);
       }
     }
     if (options_.sun) {
@@ -291,7 +291,7 @@ class SceneImporter {
                                         [](const radiosity::Light& light) { return light.intensity != Rgb(0.0F); });
     if (has_lights || result_.emissive_triangle_count > 0 || options_.sky || options_.sun || !options_.default_sky)
       return Done{};
-    scene.sky = Rgb(1.0F);
+    scene.sky.luminance = Rgb(1.0F);
     warnings_.push_back({"default-sky", "", "the scene has no light; a white sky of 1 cd/m2 was put around it"});
     return Done{};
   }
