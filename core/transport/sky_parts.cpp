@@ -101,14 +101,17 @@ std::vector<Rgb> average_over_cube(const Sky& sky, int resolution, float limit) 
 }  // namespace
 
 float bright_limit(const Sky& sky) {
-  // From above towards the limit that is kBrightness times its own mean. It may be 0: that is approached, not reached.
-  constexpr int kSteps = 32;
-  constexpr double kNothingBelow = 1e-3, kNear = 0.01;
-  const double mean = mean_below(sky, std::numeric_limits<double>::infinity());
-  double limit = kBrightness * mean;
+  // Where so little is lit that its multiple is below any limit, the limit is 0.
+  constexpr double kLeast = std::numeric_limits<float>::min();
+  const double lit_share = mean_below(sky, kLeast) / kLeast;
+  if (kBrightness * lit_share <= 1.0) return 0.0F;
+
+  // From above towards the one limit that is kBrightness times its own mean.
+  constexpr int kSteps = 64;
+  constexpr double kNear = 0.01;
+  double limit = kBrightness * mean_below(sky, std::numeric_limits<double>::infinity());
   for (int step = 0; step < kSteps; ++step) {
     const double next = kBrightness * mean_below(sky, limit);
-    if (next < kNothingBelow * mean) return 0.0F;
     if (next > (1.0 - kNear) * limit) break;
     limit = next;
   }

@@ -17,8 +17,8 @@
 
 namespace radiosity {
 
-/// The luminance at which texels are split, cd/m2: kBrightness times the mean of what lies below it. 0 if little of the
-/// map is lit at all: then all of it is bright. REQUIRES: there is a map.
+/// The luminance at which texels are split, cd/m2: kBrightness times the mean of what lies below it. 0 if no more
+/// than a quarter of the sphere is lit at all: then all of it is bright. REQUIRES: there is a map.
 float bright_limit(const Sky& sky);
 inline constexpr double kBrightness = 4.0;
 

@@ -22,10 +22,10 @@ Sky uneven_sky() {
   return sky;
 }
 
+/// The k-th of a sequence that fills the square evenly.
 glm::vec2 place(int k) {
-  const auto step = static_cast<float>(k);
-  const float x = 0.5F + step * 0.75487767F, y = 0.5F + step * 0.56984029F;
-  return {x - std::floor(x), y - std::floor(y)};
+  const double x = 0.5 + k * 0.7548776662466927, y = 0.5 + k * 0.5698402909980532;
+  return {std::min(x - std::floor(x), 0.999999), std::min(y - std::floor(y), 0.999999)};
 }
 
 TEST(SkySampler, DensityIntegratesToOne) {
