@@ -31,7 +31,7 @@ inline std::size_t add_sun(Sky& sky, const glm::vec3& direction, const Rgb& lux)
 /// Integral over the sphere of `value(direction)`, by the middles of many small texels.
 template <typename Value>
 glm::dvec3 integral(const Value& value) {
-  const Sky grid = sky_of(512, [](const glm::vec3&) { return 0.0F; });
+  const Sky grid = sky_of(256, [](const glm::vec3&) { return 0.0F; });
   glm::dvec3 sum(0.0);
   for (std::size_t texel = 0; texel < grid.map.size(); ++texel) {
     const int row = static_cast<int>(texel) / grid.width;

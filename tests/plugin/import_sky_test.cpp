@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -49,8 +49,8 @@ Imported import(const GltfBuilder& builder, const Options& options = {}) {
 
 /// The index of a new image of one colour, `size` texels wide.
 std::size_t add_face(GltfBuilder& builder, int size, const std::vector<std::uint8_t>& rgba) {
-  std::vector<std::uint8_t> texels;
-  for (int k = 0; k < size * size; ++k) texels.insert(texels.end(), rgba.begin(), rgba.end());
+  std::vector<std::uint8_t> texels(static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * 4);
+  for (std::size_t k = 0; k < texels.size(); ++k) texels[k] = rgba[k % 4];
   const std::size_t texture = builder.add_texture(size, size, texels);
   return builder.json["textures"][texture]["source"].get<std::size_t>();
 }
