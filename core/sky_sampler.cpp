@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <span>
+
+#include "core/photometry.h"
 
 namespace radiosity {
 namespace {
 
-constexpr float kUniformPdf = 1.0F / (4.0F * std::numbers::pi_v<float>);
+constexpr float kUniformPdf = 1.0F / (4.0F * kPi);
 
 /// The last number below 1: what is left of a place may not reach the next texel.
 constexpr float kBelowOne = 0x1.fffffep-1F;
@@ -27,7 +28,7 @@ std::pair<std::size_t, float> pick(std::span<const Share> until, float place) {
 
 SkySample uniform_sample(const Rgb& luminance, const glm::vec2& place) {
   const float y = 1.0F - 2.0F * place.y, level = std::sqrt(std::max(0.0F, 1.0F - y * y));
-  const float longitude = 2.0F * std::numbers::pi_v<float> * (place.x - 0.5F);
+  const float longitude = 2.0F * kPi * (place.x - 0.5F);
   return {{level * std::cos(longitude), y, level * std::sin(longitude)}, luminance, kUniformPdf};
 }
 
@@ -35,7 +36,7 @@ SkySample uniform_sample(const Rgb& luminance, const glm::vec2& place) {
 
 SkySampler::SkySampler(const Sky& sky) : sky_(sky) {
   if (!sky.has_map()) {
-    total_ = 4.0 * std::numbers::pi * double{luminance_of(sky.luminance)};
+    total_ = 4.0 * double{kPi} * double{luminance_of(sky.luminance)};
     return;
   }
   const auto width = static_cast<std::size_t>(sky.width);

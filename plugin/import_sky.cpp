@@ -7,9 +7,9 @@
 #include <glm/common.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
-#include <numbers>
 #include <utility>
 
+#include "core/photometry.h"
 #include "plugin/check_document.h"
 #include "plugin/hdr_decode.h"
 #include "plugin/image_decode.h"
@@ -193,7 +193,7 @@ Sky sky_from_cube(std::span<const CubeFace, 6> faces) {
 
 Sky sky_from_coefficients(std::span<const Rgb, 9> coefficients) {
   // What turned luminance into irradiance, band by band, is undone.
-  constexpr double kPi = std::numbers::pi;
+  constexpr double kPi{radiosity::kPi};
   const double cosine_lobe[3] = {kPi, 2.0 * kPi / 3.0, kPi / 4.0};
   constexpr int kMapWidth = 128;
   Sky sky = empty_map(kMapWidth);

@@ -10,13 +10,14 @@
 #include <glm/matrix.hpp>
 #include <iterator>
 #include <limits>
-#include <numbers>
 #include <numeric>
+
+#include "core/photometry.h"
 
 namespace radiosity {
 namespace {
 
-constexpr double kSphere = 4.0 * std::numbers::pi;
+constexpr double kSphere = 4.0 * double{kPi};
 
 /// Rows of the finest grid that groups are made of: a sun, half a degree wide, falls into one to four of its cells.
 constexpr int kGroupRows = 256;
@@ -65,7 +66,7 @@ std::vector<glm::vec2> longitudes(const Sky& sky, int cuts) {
   std::vector<glm::vec2> circle(static_cast<std::size_t>(sky.width) * static_cast<std::size_t>(cuts));
   for (std::size_t k = 0; k < circle.size(); ++k) {
     const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(circle.size());
-    const double longitude = 2.0 * std::numbers::pi * (share - 0.5);
+    const double longitude = 2.0 * double{kPi} * (share - 0.5);
     circle[k] = {std::cos(longitude), std::sin(longitude)};
   }
   return circle;
@@ -84,7 +85,7 @@ std::vector<Rgb> average_over_cube(const Sky& sky, int resolution, float limit) 
   for (int k = 0; k < sky.height * cuts; ++k) {
     const std::span<const Rgb> row = row_of(sky, k / cuts);
     const double weight_here = texel_solid_angle(sky, k / cuts) / (static_cast<double>(cuts) * cuts);
-    const double latitude = std::numbers::pi * (0.5 - (k + 0.5) / (static_cast<double>(sky.height) * cuts));
+    const double latitude = double{kPi} * (0.5 - (k + 0.5) / (static_cast<double>(sky.height) * cuts));
     const auto level = static_cast<float>(std::cos(latitude)), y = static_cast<float>(std::sin(latitude));
     for (std::size_t m = 0; m < circle.size(); ++m) {
       const glm::vec3 direction = world_from_map * glm::vec3(level * circle[m].x, y, level * circle[m].y);
