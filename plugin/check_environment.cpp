@@ -47,7 +47,7 @@ class EnvironmentChecker : private JsonChecker {
             const auto index = whole_number(face);
             return index && *index < size("images");
           });
-      if (!fine) fail(place, "\"specularImages\" are not six images of the file for each level");
+      if (!fine) fail(place, R"("specularImages" are not six images of the file for each level)");
     }
     if (!light.contains("specularImages") && !light.contains("irradianceCoefficients")) {
       fail(place, "has neither \"specularImages\" nor \"irradianceCoefficients\"");
