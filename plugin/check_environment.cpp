@@ -50,7 +50,7 @@ class EnvironmentChecker : private JsonChecker {
       if (!fine) fail(place, R"("specularImages" are not six images of the file for each level)");
     }
     if (!light.contains("specularImages") && !light.contains("irradianceCoefficients")) {
-      fail(place, "has neither \"specularImages\" nor \"irradianceCoefficients\"");
+      fail(place, R"(has neither "specularImages" nor "irradianceCoefficients")");
     }
   }
 
