@@ -29,6 +29,8 @@ Result<Done> check_options(const Options& options) {
                                   [](double band) { return is_finite_and_at_least(band, 0.0); })) {
     return refuse("--sky", "must not be negative");
   }
+  if (options.sky && !options.sky_file.empty()) return refuse("--sky", "is either a luminance or a file");
+  if (!std::isfinite(options.sky_rotation_degrees)) return refuse("--sky-rotation", "must be finite");
   if (options.sun && !is_valid(*options.sun)) {
     return refuse("--sun", "needs an elevation between -90 and 90 degrees and an illuminance that is not negative");
   }

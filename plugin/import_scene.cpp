@@ -19,6 +19,7 @@
 #include "plugin/import_geometry.h"
 #include "plugin/import_lights.h"
 #include "plugin/import_nodes.h"
+#include "plugin/import_sky.h"
 
 namespace gltf_radiosity {
 namespace {
@@ -273,13 +274,9 @@ class SceneImporter {
 
   Result<Done> import_environment() {
     radiosity::Scene& scene = result_.scene;
-    if (options_.sky) {
-      for (int band = 0; band < 3; ++band) {
-        const double value = (*options_.sky)[static_cast<std::size_t>(band)];
-        if (!(value >= 0.0 && value < 1e30)) return Error{ErrorCode::kBadOption, "sky", "is negative or not finite"};
-        scene.sky[band] = static_cast<float>(value);
-      }
-    }
+    auto sky = import_sky(document_, options_, warnings_);
+    if (!sky) return sky.error();
+    if (*sky) scene.sky = std::move(**sky);
     if (options_.sun) {
       const Sun& sun = *options_.sun;
       const bool fine = std::isfinite(sun.elevation_degrees) && std::isfinite(sun.azimuth_degrees) &&
@@ -289,9 +286,9 @@ class SceneImporter {
     }
     const bool has_lights = std::any_of(scene.lights.begin(), scene.lights.end(),
                                         [](const radiosity::Light& light) { return light.intensity != Rgb(0.0F); });
-    if (has_lights || result_.emissive_triangle_count > 0 || options_.sky || options_.sun || !options_.default_sky)
+    if (has_lights || result_.emissive_triangle_count > 0 || *sky || options_.sun || !options_.default_sky)
       return Done{};
-    scene.sky = Rgb(1.0F);
+    scene.sky.luminance = Rgb(1.0F);
     warnings_.push_back({"default-sky", "", "the scene has no light; a white sky of 1 cd/m2 was put around it"});
     return Done{};
   }

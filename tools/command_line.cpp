@@ -11,6 +11,7 @@
 #include <sstream>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include "tools/exit_code.h"
 #include "tools/help_text.h"
@@ -111,14 +112,29 @@ void add_mesh_options(CLI::App& app, Options& options) {
       ->allow_extra_args(false);
 }
 
+void set_sky(const std::variant<std::array<double, 3>, std::string>& sky, Options& options) {
+  options.sky.reset();
+  options.sky_file.clear();
+  if (const auto* luminance = std::get_if<0>(&sky)) options.sky = *luminance;
+  if (const auto* file = std::get_if<1>(&sky)) options.sky_file = *file;
+}
+
 void add_light_options(CLI::App& app, Options& options) {
   app.option_defaults()->group("Light");
   add(app,
-      {"--sky", "R,G,B", "none", "Luminance of the open sky in cd/m2: red, green, blue, linear Rec. 709, not negative"},
-      [&options](const std::string& text) {
-        options.sky = parse_triple(text, {Range{}, Range{}, Range{}});
-      })
+      {"--sky", "R,G,B|FILE.hdr", "none",
+       "The open sky: its luminance in cd/m2 (red, green, blue, linear Rec. 709, not negative), or a Radiance HDR "
+       "image "
+       "in cd/m2, equirectangular, up to 16384 x 8192, with +x in its middle and +z to the right. Replaces an "
+       "EXT_lights_image_based of the file"},
+      [&options](const std::string& text) { set_sky(parse_sky(text), options); })
       ->join(',');
+  add(app,
+      {"--sky-rotation", "DEG", fmt::format("{}", options.sky_rotation_degrees),
+       "Turns the sky about y, -360 to 360 degrees: what stood at azimuth 0 then stands at DEG"},
+      [&options](const std::string& text) {
+        options.sky_rotation_degrees = parse_number(text, {-360.0, 360.0});
+      });
   add(app,
       {"--sun", "EL,AZ,LUX", "none",
        "The sun: elevation -90 to 90 and azimuth -360 to 360 in degrees (it stands at (cos EL sin AZ, sin EL, cos EL "

@@ -81,7 +81,7 @@ forbid(WHERE "${public_headers}" LINE "^# *include" EXCEPT "${include}([a-z_]+>|
 # One way to write an include. One pi between luminance and radiosity; angles are measured with another, at these doors.
 forbid(WHERE "." UNLESS "${public_headers}" LINE "^# *include *\"" EXCEPT "\"(core|plugin|tools|tests)/"
        BECAUSE "our headers are included by their path from the top")
-forbid(WHERE "^(core|plugin|tools)/" UNLESS "^(core/photometry\\.h|core/visibility/hemicube\\.cpp|plugin/import_lights\\.cpp)$"
+forbid(WHERE "^(core|plugin|tools)/" UNLESS "^(core/photometry\\.h|core/visibility/hemicube\\.cpp|core/sky\\.cpp|plugin/import_lights\\.cpp)$"
        LINE "(numbers::pi|M_PI|3\\.14159)"
        BECAUSE "core/photometry.h is the only place with a pi")
 

@@ -52,7 +52,7 @@ TEST(HelpText, DescribesEveryOption) {
       "--refine",   "--patch-size",  "--subdivide", "--sky",         "--sun",        "--no-default-sky",
       "--metals",   "--quality",     "--hemicube",  "--max-patches", "--residual",   "--visibility",
       "--solver",   "--threads",     "--exposure",  "--ev100",       "--color-type", "--json",
-      "--progress", "--light-units", "--config",    "--version",     "--help"};
+      "--progress", "--light-units", "--config",    "--version",     "--help",       "--sky-rotation"};
   EXPECT_EQ(names, expected);
 }
 
@@ -63,6 +63,7 @@ TEST(HelpText, StatesTheDefaultsOfTheLibrary) {
       {"--patch-size", "auto"},
       {"--subdivide", "none"},
       {"--sky", "none"},
+      {"--sky-rotation", fmt::format("{}", library.sky_rotation_degrees)},
       {"--sun", "none"},
       {"--no-default-sky", "off"},
       {"--metals", "diffuse"},
