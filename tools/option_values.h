@@ -37,6 +37,9 @@ int parse_integer(std::string_view text, int least, int most);
 /// Three numbers separated by commas, each in its own range.
 std::array<double, 3> parse_triple(std::string_view text, const std::array<Range, 3>& ranges);
 
+/// W,H: two whole numbers in [least, most].
+std::pair<int, int> parse_size(std::string_view text, int least, int most);
+
 /// NAME=LEVEL, cut at the last equals sign because names may hold one; LEVEL in [0, 8].
 std::pair<std::string, int> parse_subdivide(std::string_view text);
 
