@@ -20,13 +20,6 @@ const PrimitiveInstance& instance_of(const ImportedScene& scene, std::uint32_t t
   return *(after - 1);
 }
 
-/// What a surface reflects of the light at a point as it is displayed: not limited as in the exchange of light.
-Rgb displayed_reflectance(const radiosity::Scene& scene, const SurfacePlace& place) {
-  const radiosity::Surface& surface = scene.surfaces[scene.surface_of_triangle[place.triangle]];
-  return surface.varies ? scene.detail->reflectance(place.triangle, {{place.at, place.at, place.at}})
-                        : surface.reflectance;
-}
-
 }  // namespace
 
 std::vector<std::uint8_t> baked_triangles(const ImportedScene& output) {
@@ -42,6 +35,13 @@ std::vector<std::uint8_t> baked_triangles(const ImportedScene& output) {
 bool is_clipped(const ImportedScene& output, const SurfacePlace& place) {
   const glm::vec4 color = output.detail->vertex_color(place.triangle, place.at);
   return std::max({color.x, color.y, color.z}) >= kClippedFrom;
+}
+
+Rgb displayed_reflectance(const ImportedScene& input, const SurfacePlace& place) {
+  const radiosity::Scene& scene = input.scene;
+  const radiosity::Surface& surface = scene.surfaces[scene.surface_of_triangle[place.triangle]];
+  return surface.varies ? scene.detail->reflectance(place.triangle, {{place.at, place.at, place.at}})
+                        : surface.reflectance;
 }
 
 SourceFinder::SourceFinder(const ImportedScene& input, const radiosity::RayScene& rays, const ImportedScene& output)
@@ -63,7 +63,7 @@ std::optional<radiosity::ReferencePlace> SourceFinder::find(const SurfacePlace& 
   const radiosity::Scene& scene = input_.scene;
   return radiosity::ReferencePlace{
       radiosity::point_at(scene, found->triangle, found->at), radiosity::shading_normal(scene, *found),
-      displayed_reflectance(scene, *found),
+      displayed_reflectance(input_, *found),
       radiosity::mean_emission(scene, found->triangle, {{found->at, found->at, found->at}})};
 }
 

@@ -26,6 +26,9 @@ std::vector<std::uint8_t> baked_triangles(const ImportedScene& output);
 /// Whether COLOR_0 is at its upper end: it may have been cut off there.
 bool is_clipped(const ImportedScene& output, const radiosity::SurfacePlace& place);
 
+/// What a surface of the source reflects at a place as it is displayed: not limited as in the exchange of light.
+radiosity::Rgb displayed_reflectance(const ImportedScene& input, const radiosity::SurfacePlace& place);
+
 /// Finds a place of a baked file in its source. `input`, its `rays` and `output` must outlive it. Thread-safe.
 class SourceFinder {
  public:

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "core/parallel.h"
@@ -11,8 +12,11 @@
 #include "core/verify/path_tracer.h"
 #include "plugin/check_options.h"
 #include "plugin/document.h"
+#include "plugin/error_picture.h"
 #include "plugin/firewall.h"
+#include "plugin/image_encode.h"
 #include "plugin/import_scene.h"
+#include "plugin/pending_files.h"
 #include "plugin/phases.h"
 #include "plugin/verified_places.h"
 
@@ -71,8 +75,8 @@ std::vector<radiosity::ComparedPlace> compared_places(const VerifiedPlaces& veri
   std::vector<radiosity::ComparedPlace> compared;
   for (std::size_t i = 0; i < verified.places.size(); ++i) {
     if (reference.buried[i] != 0) continue;
-    compared.push_back(
-        {reference.luminance[i], verified.displayed[i], verified.clipped[i] != 0, reference.variance[i]});
+    compared.push_back({reference.luminance[i], verified.displayed[i], verified.clipped[i] != 0, reference.variance[i],
+                        reference.band_variance[i]});
   }
   return compared;
 }
@@ -104,6 +108,12 @@ void add_warnings(VerifyReport& report) {
                                fmt::format("{} of {} points of the baked file do not lie on a surface of the source",
                                            report.unmatched_points, all)});
   }
+  if (report.reference_noise > report.relative_rmse) {
+    report.warnings.push_back({"noisy-truth", "",
+                               fmt::format("the noise of the truth, {:.2g} %, is above the error; more samples "
+                                           "(--max-samples) tell more",
+                                           100.0 * report.reference_noise)});
+  }
   if (report.written_exposure && std::abs(report.exposure / *report.written_exposure - 1.0) > kSameExposure) {
     report.warnings.push_back({"exposure-differs", "",
                                fmt::format("the baked file says that its exposure is {:.4g}, but {:.4g} fits best",
@@ -111,16 +121,39 @@ void add_warnings(VerifyReport& report) {
   }
 }
 
-/// Places, truth, comparison.
-Result<VerifyReport> verify_scenes(const BothScenes& both, const VerifyOptions& options, VerifyReport report,
-                                   const radiosity::Progress& progress) {
+/// A picture must be a PNG and replace neither scene.
+Result<Done> check_image(const std::string& image, const std::string& input, const std::string& output) {
+  if (image.empty()) return Done{};
+  const std::filesystem::path file(image);
+  if (file.extension() != ".png") return Error{ErrorCode::kBadOption, "--image", "must end in .png"};
+  std::error_code ignored;
+  for (const std::string& scene : {input, output}) {
+    if (!std::filesystem::equivalent(file, scene, ignored)) continue;
+    return Error{ErrorCode::kBadOption, "--image", "must be another file than IN and OUT"};
+  }
+  return Done{};
+}
+
+Result<Done> write_picture(const BothScenes& both, const radiosity::RayScene& input_rays, const VerifyReport& report,
+                           const VerifyOptions& options, const radiosity::Progress& progress) {
+  const radiosity::RayScene output_rays(both.output.scene);
+  const PicturedScenes scenes{both.input, input_rays, both.output, output_rays};
+  const Pixels pixels = draw_error(scenes, {report.exposure, report.mean_luminance}, options, progress);
+  PendingFiles files;
+  if (const auto added = files.add(options.image, encode_png(pixels)); !added) return added.error();
+  return files.commit();
+}
+
+/// Places, truth, comparison, picture.
+Result<VerifyReport> verify_scenes(const BothScenes& both, const std::string& output, const VerifyOptions& options,
+                                   VerifyReport report, const radiosity::Progress& progress) {
   // Where.
   const radiosity::RayScene rays(both.input.scene);
   const SourceFinder finder(both.input, rays, both.output);
   const VerifiedPlaces verified = verified_places(finder, both.output, options);
   report.unmatched_points = verified.unmatched;
   if (verified.places.empty() && verified.unmatched == 0) {
-    return bad_input("", "nothing is baked in it: no unlit material with COLOR_0");
+    return bad_input(output, "nothing is baked in it: no unlit material with COLOR_0");
   }
 
   // Truth.
@@ -132,7 +165,7 @@ Result<VerifyReport> verify_scenes(const BothScenes& both, const VerifyOptions& 
   report.points = compared.size();
   report.buried_points = verified.places.size() - compared.size();
   report.paths = reference.sample_count;
-  if (compared.empty()) return bad_input("", "none of its points lies on a visible surface of the source");
+  if (compared.empty()) return bad_input(output, "none of its points lies on a visible surface of the source");
 
   // Comparison.
   add_figures(radiosity::compare(compared, radiosity::fitted_exposure(compared)), report);
@@ -141,6 +174,10 @@ Result<VerifyReport> verify_scenes(const BothScenes& both, const VerifyOptions& 
     report.relative_rmse_written_exposure = radiosity::compare(compared, *both.written_exposure).relative_rmse;
   }
   add_warnings(report);
+
+  // Picture.
+  if (options.image.empty()) return report;
+  if (const auto written = write_picture(both, rays, report, options, progress); !written) return written.error();
   return report;
 }
 
@@ -150,6 +187,7 @@ Result<VerifyReport> verify_files(const std::string& input, const std::string& o
                                   const Callbacks& callbacks) {
   return behind_firewall([&]() -> Result<VerifyReport> {
     if (const auto checked = check_options(options); !checked) return checked.error();
+    if (const auto checked = check_image(options.image, input, output); !checked) return checked.error();
     Phases phases(callbacks);
     const radiosity::Progress& progress = phases.progress();
     return radiosity::on_threads(options.bake.threads, [&]() -> Result<VerifyReport> {
@@ -159,8 +197,8 @@ Result<VerifyReport> verify_files(const std::string& input, const std::string& o
       if (!both) return both.error();
       count_output(both->output, report);
       progress.update("read", 1.0);
-      Result<VerifyReport> verified = verify_scenes(*both, options, std::move(report), progress);
-      if (!verified) return in_file(output, verified.error());
+      Result<VerifyReport> verified = verify_scenes(*both, output, options, std::move(report), progress);
+      if (!verified) return verified.error();
       verified->phases = phases.finish();
       return verified;
     });

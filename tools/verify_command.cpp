@@ -113,7 +113,6 @@ void finish(const VerifyCommand& command) {
   if (command.input.empty() || command.output.empty()) throw CLI::ValidationError("IN and OUT must not be empty");
   const std::array scenes{command.input, command.output};
   if (command.json != "-") check_that_differs("--json", command.json, scenes);
-  check_that_differs("--image", command.options.image, scenes);
 }
 
 }  // namespace

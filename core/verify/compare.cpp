@@ -31,7 +31,7 @@ double fitted_exposure(std::span<const ComparedPlace> places) {
   for (const ComparedPlace& place : places) {
     if (place.clipped) continue;
     products += glm::dot(glm::dvec3(place.displayed), glm::dvec3(place.reference));
-    squares += glm::dot(glm::dvec3(place.reference), glm::dvec3(place.reference));
+    squares += glm::dot(glm::dvec3(place.reference), glm::dvec3(place.reference)) - place.band_variance;
   }
   return products > 0.0 && squares > 0.0 ? products / squares : 1.0;
 }

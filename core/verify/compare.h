@@ -9,10 +9,11 @@ namespace radiosity {
 
 /// One place.
 struct ComparedPlace {
-  Rgb reference{0.0F};    ///< luminance that it should show, cd/m2
-  Rgb displayed{0.0F};    ///< linear colour that it does show
-  bool clipped = false;   ///< the colour was cut off at white
-  double variance = 0.0;  ///< of the reference's luminance, (cd/m2)^2
+  Rgb reference{0.0F};         ///< luminance that it should show, cd/m2
+  Rgb displayed{0.0F};         ///< linear colour that it does show
+  bool clipped = false;        ///< the colour was cut off at white
+  double variance = 0.0;       ///< of the reference's luminance, (cd/m2)^2
+  double band_variance = 0.0;  ///< of the reference, summed over the three bands, (cd/m2)^2
 };
 
 /// Errors are those of displayed / exposure against the reference, in luminance as the eye weighs it. A reference at a
@@ -27,7 +28,8 @@ struct Comparison {
   double clipped_share = 0.0;
 };
 
-/// The exposure that fits best: least squares over the places that are not clipped; 1 where all are, or all are black.
+/// The exposure that fits best: least squares over the places that are not clipped, without the bias that the
+/// reference's noise has on them; 1 where all are clipped, or all are black.
 double fitted_exposure(std::span<const ComparedPlace> places);
 
 /// Compares under `exposure`, m2/cd. REQUIRES: there are places, and exposure > 0.

@@ -16,15 +16,18 @@ struct Estimate {
   explicit Estimate(Random random_numbers) : random(random_numbers) {}
 
   Random random;
-  glm::dvec3 sum{0.0};  ///< of rho H / pi
+  glm::dvec3 sum{0.0}, band_square_sum{0.0};  ///< of rho H / pi
   double luminance_sum = 0.0, square_sum = 0.0;
   std::uint32_t count = 0, wanted = kFirstSamples, back_count = 0;
 
   bool buried() const { return back_count > kBuriedPathShare * count; }
   /// Of one path.
   double variance() const {
-    const double mean = luminance_sum / count;
-    return std::max(0.0, (square_sum - luminance_sum * mean) / (count - 1.0));
+    return std::max(0.0, (square_sum - luminance_sum * luminance_sum / count) / (count - 1.0));
+  }
+  double band_variance() const {
+    const glm::dvec3 variance = (band_square_sum - sum * sum / static_cast<double>(count)) / (count - 1.0);
+    return std::max(0.0, variance.x + variance.y + variance.z);
   }
 };
 
@@ -34,6 +37,7 @@ void trace_wanted(const PathTracer& tracer, const ReferencePlace& place, Estimat
     const Rgb luminance = reflected_luminance(place.reflectance, path.irradiance);
     const auto seen = static_cast<double>(luminance_of(luminance));
     estimate.sum += glm::dvec3(luminance);
+    estimate.band_square_sum += glm::dvec3(luminance) * glm::dvec3(luminance);
     estimate.luminance_sum += seen;
     estimate.square_sum += seen * seen;
     estimate.back_count += path.sees_back ? 1U : 0U;
@@ -101,6 +105,7 @@ Reference summarize(std::span<const ReferencePlace> places, std::span<const Esti
     const Estimate& estimate = estimates[i];
     result.luminance.push_back(Rgb(estimate.sum / static_cast<double>(estimate.count)) + places[i].emission);
     result.variance.push_back(estimate.variance() / estimate.count);
+    result.band_variance.push_back(estimate.band_variance() / estimate.count);
     result.buried.push_back(estimate.buried() ? 1 : 0);
     result.sample_count += estimate.count;
   }

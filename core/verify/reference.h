@@ -37,11 +37,12 @@ inline constexpr double kBuriedPathShare = 0.25;
 
 /// Shapes: per place [places.size()].
 struct Reference {
-  std::vector<Rgb> luminance;        ///< rho H / pi + Le, cd/m2
-  std::vector<double> variance;      ///< of `luminance` as the eye weighs it, (cd/m2)^2: of the mean, not of one path
-  std::vector<std::uint8_t> buried;  ///< 1: left out of everything below
-  double noise = 0.0;                ///< reached: root mean variance over mean luminance
-  std::uint64_t sample_count = 0;    ///< paths in total
+  std::vector<Rgb> luminance;         ///< rho H / pi + Le, cd/m2
+  std::vector<double> variance;       ///< of `luminance` as the eye weighs it, (cd/m2)^2: of the mean, not of one path
+  std::vector<double> band_variance;  ///< of `luminance`, summed over the three bands, likewise
+  std::vector<std::uint8_t> buried;   ///< 1: left out of everything below
+  double noise = 0.0;                 ///< reached: root mean variance over mean luminance
+  std::uint64_t sample_count = 0;     ///< paths in total
 };
 
 /// Parallel; the same result for any number of threads. Throws `Cancelled`.
