@@ -103,11 +103,12 @@ class Painter {
           1.0F - 2.0F * (static_cast<float>(y) + random.share()) / static_cast<float>(options_.camera.height);
       const Ray ray = camera_.ray(u, v);
       add_displayed(ray, random, pixel);
-      const auto white = static_cast<float>(1.0 / scale_.exposure);
-      pixel.truth += glm::min(truth_along(ray, random), Rgb(white));
+      pixel.truth += truth_along(ray, random);
     }
     pixel.displayed /= static_cast<float>(samples);
-    pixel.truth /= static_cast<float>(samples);
+    // Cut off where white is, but on the mean: single paths are far brighter and far darker than it.
+    const auto white = static_cast<float>(1.0 / scale_.exposure);
+    pixel.truth = glm::min(pixel.truth / static_cast<float>(samples), Rgb(white));
     return pixel;
   }
 
