@@ -94,7 +94,7 @@ TEST(PathTracer, PunctualLightsAsTheExtensionDefinesThem) {
     scene.lights = {point, ranged, tilted, spot, point, ranged};
     return estimate(scene, kFloorPoint, 4000);
   }();
-  EXPECT_NEAR(all.luminance, 4.0 + 3.75 + 4.0 + 1.0, all.tolerance);
+  EXPECT_NEAR(all.luminance, 4.0 + 3.75 + 4.0 + 1.0, 5e-3);
 }
 
 TEST(PathTracer, ALampOfTwoSquaresHasItsFormFactor) {
@@ -134,7 +134,7 @@ TEST(PathTracer, AFenceLetsHalfOfTheLightThrough) {
 
 TEST(PathTracer, AgreesWithTheGathererInTheCornellBox) {
   // The baker's light at a few points, by quite another method.
-  const test::PreparedScene prepared(test::cornell_box(), 1500, 32);
+  const test::PreparedScene prepared(test::cornell_box(), 600, 16);
   RowCache rows(*prepared.rows, std::size_t{1} << 30U);
   const std::vector<Rgb> direct = direct_on_patches(prepared.direct, prepared.patches, {});
   const Solution solution = solve_gathering({prepared.patches, direct, 1e-3F}, rows, {});
@@ -152,7 +152,7 @@ TEST(PathTracer, AgreesWithTheGathererInTheCornellBox) {
   for (const SurfacePoint& point : points) {
     const double gathered = static_cast<double>(luminance_of(gatherer.at(point, ++index).irradiance));
     const Estimate traced = estimate(tracer, point, 4000);
-    EXPECT_NEAR(traced.luminance, gathered, 0.03 * gathered + traced.tolerance);
+    EXPECT_NEAR(traced.luminance, gathered, 0.04 * gathered + traced.tolerance);
   }
 }
 
