@@ -21,15 +21,15 @@ inline constexpr std::string_view kHelpFooter =
     "  gltf-radiosity hall.glb baked.glb --patch-size 0.25 --subdivide Floor=2 --exposure 0.5 --json -\n"
     "      Edges of at most 25 cm, the node Floor cut twice, a fixed exposure, the report on stdout\n"
     "\n"
-    "How good is a bake? gltf-radiosity verify IN OUT compares it with the truth: gltf-radiosity verify --help.\n"
+    "How good is a bake? gltf-radiosity verify IN OUT says it: see gltf-radiosity verify --help.\n"
     "To bake a file that is called verify, write ./verify.\n"
     "\n"
     "Exit codes: 0 done; 1 bad input; 2 wrong usage; 3 cannot write; 4 limit reached; 70 a bug of ours;\n"
     "130 and 143 interrupted. The output appears whole or not at all.";
 
 inline constexpr std::string_view kVerifyDescription =
-    "Says how far a baked file OUT is from the truth: a path tracer computes the light of IN at random places\n"
-    "of OUT's surfaces. IN, and the options under Light, must be those of the bake.";
+    "Says how far a baked file OUT is from the truth: a path tracer computes the light of IN at random\n"
+    "places of OUT's surfaces. IN, and the options under Light, must be those of the bake.";
 
 inline constexpr std::string_view kVerifyFooter =
     "Examples:\n"
