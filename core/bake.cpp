@@ -1,11 +1,10 @@
 #include "core/bake.h"
 
-#include <tbb/global_control.h>
-
 #include <algorithm>
 #include <memory>
 
 #include "core/mesh/patches.h"
+#include "core/parallel.h"
 #include "core/reconstruct/fit_vertices.h"
 #include "core/reconstruct/gather.h"
 #include "core/reconstruct/interpolate_vertices.h"
@@ -93,10 +92,7 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
 }  // namespace
 
 Bake bake(const Scene& scene, const BakeOptions& options, const Progress& progress) {
-  if (options.threads <= 0) return bake_here(scene, options, progress);
-  const auto threads = static_cast<std::size_t>(options.threads);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-  return bake_here(scene, options, progress);
+  return on_threads(options.threads, [&] { return bake_here(scene, options, progress); });
 }
 
 }  // namespace radiosity

@@ -50,21 +50,31 @@ class SceneImporter {
       : document_(document), model_(model), options_(options), warnings_(warnings), textures_(document) {}
 
   Result<ImportedScene> run() {
-    auto placed = place_nodes(document_, model_, options_.subdivide, warnings_);
-    if (!placed) return placed.error();
-    for (const std::uint32_t node : placed->visible) {
-      if (auto done = import_node(*placed, node); !done) return done.error();
-    }
+    if (auto done = import_surfaces(); !done) return done.error();
     if (auto done = check_that_there_is_work(); !done) return done.error();
-    finish_detail();
     count_emissive_triangles();
     if (auto done = import_environment(); !done) return done.error();
     warn();
     return std::move(result_);
   }
 
+  Result<ImportedScene> run_without_light() {
+    if (auto done = import_surfaces(); !done) return done.error();
+    return std::move(result_);
+  }
+
  private:
   // Nodes.
+
+  Result<Done> import_surfaces() {
+    auto placed = place_nodes(document_, model_, options_.subdivide, warnings_);
+    if (!placed) return placed.error();
+    for (const std::uint32_t node : placed->visible) {
+      if (auto done = import_node(*placed, node); !done) return done.error();
+    }
+    finish_detail();
+    return Done{};
+  }
 
   Result<Done> import_node(const PlacedNodes& placed, std::uint32_t node) {
     const Json& json = document_.json["nodes"][node];
@@ -371,6 +381,13 @@ Result<ImportedScene> import_scene(const Document& document, const Options& opti
   const auto model = typed_view(document);
   if (!model) return model.error();
   return SceneImporter(document, **model, options, warnings).run();
+}
+
+Result<ImportedScene> import_displayed(const Document& document, std::vector<Warning>& warnings) {
+  const auto model = typed_view(document);
+  if (!model) return model.error();
+  const Options options;
+  return SceneImporter(document, **model, options, warnings).run_without_light();
 }
 
 }  // namespace gltf_radiosity

@@ -78,6 +78,12 @@ std::variant<std::array<double, 3>, std::string> parse_sky(std::string_view text
   return parse_triple(text, {Range{}, Range{}, Range{}});
 }
 
+std::pair<int, int> parse_size(std::string_view text, int least, int most) {
+  const std::vector<std::string_view> parts = split(text, ',');
+  if (parts.size() != 2) throw BadValue(fmt::format("'{}' is not two numbers separated by a comma", text));
+  return {parse_integer(parts[0], least, most), parse_integer(parts[1], least, most)};
+}
+
 std::pair<std::string, int> parse_subdivide(std::string_view text) {
   const std::size_t equals = text.rfind('=');
   if (equals == std::string_view::npos || equals == 0) throw BadValue(fmt::format("'{}' is not NAME=LEVEL", text));

@@ -41,6 +41,9 @@ std::array<double, 3> parse_triple(std::string_view text, const std::array<Range
 /// Three numbers that are not negative, or the name of a file: whatever is not numbers separated by commas.
 std::variant<std::array<double, 3>, std::string> parse_sky(std::string_view text);
 
+/// W,H: two whole numbers in [least, most].
+std::pair<int, int> parse_size(std::string_view text, int least, int most);
+
 /// NAME=LEVEL, cut at the last equals sign because names may hold one; LEVEL in [0, 8].
 std::pair<std::string, int> parse_subdivide(std::string_view text);
 
