@@ -23,11 +23,11 @@ namespace {
 struct Room {
   Room(std::int64_t boxes, std::int64_t cut, std::int64_t max_patches)
       : scene(test::tessellated(test::many_boxes(static_cast<int>(boxes), 1), static_cast<int>(cut))),
-        patches(make_patches(scene, {.max_patches = static_cast<int>(max_patches)}, {})),
-        rays(scene) {}
+        rays(scene),
+        patches(make_patches(rays, {.max_patches = static_cast<int>(max_patches)}, {})) {}
   Scene scene;
-  Patches patches;
   RayScene rays;
+  Patches patches;
 };
 
 void note_sizes(benchmark::State& state, const Room& room) {

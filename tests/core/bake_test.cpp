@@ -86,6 +86,7 @@ TEST(Bake, IsTheSameForBothSolvers) {
   for (const auto& [scene, patch_size] : {std::pair(test::cornell_box(), 0.05F), {test::occluder(), 0.25F}}) {
     BakeOptions options = quick(patch_size);
     options.max_patches = 1000;
+    options.solver = Solver::kProgressive;
     const Bake shot = bake(scene, options, {});
     options.solver = Solver::kGathering;
     const Difference found = difference(shot, bake(scene, options, {}));
@@ -196,6 +197,7 @@ TEST(Bake, BalancesFlux) {
                                                {"cornell by a point", punctual}};
   for (const auto& [name, scene] : scenes) {
     BakeOptions options = quick(0.5F);
+    options.solver = Solver::kProgressive;
     const BakeReport shot = bake(scene, options, {}).report;
     EXPECT_GT(shot.emitted_flux, 0.0);
     EXPECT_NEAR((shot.absorbed_flux + shot.escaped_flux) / shot.emitted_flux, 1.0, 0.005) << name;

@@ -1,4 +1,4 @@
-// A scene with everything that light transport asks for: patches, rays, item buffers, hemicube, rows.
+// A scene with everything that light transport asks for: rays, patches, item buffers, hemicube, rows.
 #pragma once
 
 #include <memory>
@@ -17,8 +17,8 @@ namespace radiosity::test {
 struct PreparedScene {
   explicit PreparedScene(Scene scene_to_prepare, int max_patches = 300, int hemicube_resolution = 16)
       : scene(std::move(scene_to_prepare)),
-        patches(make_patches(scene, {.max_patches = max_patches}, {})),
         rays(scene),
+        patches(make_patches(rays, {.max_patches = max_patches}, {})),
         items(make_item_buffer_rays(rays)),
         hemicube(hemicube_resolution),
         sky(scene.sky, hemicube_resolution),
@@ -26,8 +26,8 @@ struct PreparedScene {
         direct(rays, patches, {}) {}
 
   Scene scene;
-  Patches patches;
   RayScene rays;
+  Patches patches;
   std::unique_ptr<ItemBufferMaker> items;
   Hemicube hemicube;
   SmoothSky sky;

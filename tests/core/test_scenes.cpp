@@ -42,6 +42,13 @@ std::array<Quad, 6> walls_of(const glm::vec3& low, const glm::vec3& high) {
   }};
 }
 
+/// Adds a closed box seen from outside.
+void add_solid_box(Scene& scene, const glm::vec3& low, const glm::vec3& high, std::uint32_t surface) {
+  for (const Quad& wall : walls_of(low, high)) {
+    add_quad(scene, {wall[0], wall[3], wall[2], wall[1]}, surface);
+  }
+}
+
 /// A horizontal square centred on the y axis, facing up or down.
 Quad level_square(float width, float y, bool faces_up) {
   const float h = 0.5F * width;
@@ -225,6 +232,58 @@ Scene occluder() {
   add_quad(scene, level_square(4.0F, 0.0F, true), 0);
   add_quad(scene, level_square(1.0F, 1.0F, true), 1);
   add_quad(scene, level_square(0.5F, 2.0F, false), 2);
+  return scene;
+}
+
+Scene floor_only() {
+  Scene scene = occluder();
+  scene.triangles.resize(2);
+  scene.surface_of_triangle.resize(2);
+  scene.positions.resize(4);
+  scene.normals.resize(4);
+  return scene;
+}
+
+Scene solid_box() {
+  Scene scene = box_room(glm::vec3(1.0F), {});
+  for (glm::uvec3& triangle : scene.triangles) std::swap(triangle.y, triangle.z);
+  for (glm::vec3& normal : scene.normals) normal = -normal;
+  return scene;
+}
+
+Scene rooms_on_one_floor(float wall, float thickness) {
+  Scene scene = box_room({2.0F, 1.0F, 1.0F}, matte(Rgb(0.7F)));
+  const float right = wall + thickness;
+  add_quad(scene, {{{wall, 0, 0}, {wall, 0, 1}, {wall, 1, 1}, {wall, 1, 0}}}, 0);
+  add_quad(scene, {{{right, 0, 0}, {right, 1, 0}, {right, 1, 1}, {right, 0, 1}}}, 0);
+  scene.lights = {{.kind = Light::Kind::kPoint, .position = {0.5F * wall, 0.5F, 0.5F}}};
+  return scene;
+}
+
+Scene sunk_box(float rho) {
+  Scene scene = floor_only();
+  scene.surfaces = {matte(Rgb(rho)), matte(Rgb(rho))};
+  add_solid_box(scene, {-0.37F, -0.5F, -0.71F}, {0.63F, 0.5F, 0.29F}, 1);
+  scene.lights = {{.kind = Light::Kind::kDirectional, .direction = {0, -1, 0}, .intensity = Rgb(10.0F)}};
+  return scene;
+}
+
+Scene wall_through_floor(float rho) {
+  Scene scene = floor_only();
+  scene.surfaces = {matte(Rgb(rho)), matte(Rgb(rho))};
+  scene.surfaces[1].two_sided = true;
+  const float x = 0.13F;
+  add_quad(scene, {{{x, -0.5F, 2}, {x, -0.5F, -2}, {x, 0.5F, -2}, {x, 0.5F, 2}}}, 1);
+  scene.lights = {{.kind = Light::Kind::kDirectional, .direction = {0, -1, 0}, .intensity = Rgb(10.0F)}};
+  return scene;
+}
+
+Scene panel_before_wall(float gap) {
+  Scene scene;
+  scene.surfaces = {matte(Rgb(0.5F)), matte(Rgb(0.5F))};
+  add_quad(scene, {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}}, 0);
+  const float h = 0.25F;
+  add_quad(scene, {{{-h, -h, gap}, {h, -h, gap}, {h, h, gap}, {-h, h, gap}}}, 1);
   return scene;
 }
 

@@ -40,6 +40,29 @@ Scene white_furnace(float rho, float luminance);
 /// shadow where |x| and |z| are below 0.75, and unshadowed where either is above 1.25.
 Scene occluder();
 
+/// The floor of the occluder scene alone: 4 m wide, facing up.
+Scene floor_only();
+
+/// A box of 1 m seen from outside: from inside there are only backs.
+Scene solid_box();
+
+/// A room of 2 m x 1 m x 1 m with white walls, cut in two by a wall from x = `wall` to `wall + thickness` and lit by a
+/// point of 1 cd in the middle of the left part. Floor, ceiling and the long walls go through in one piece. Walls are
+/// numbered like box_room, the two sides of the dividing wall come last; one surface.
+Scene rooms_on_one_floor(float wall, float thickness);
+
+/// The floor under a sun of 10 lx straight above, and a closed box seen from outside that is sunk into it, 1 m wide
+/// and 0.5 m above and below the floor, middle at x = 0.13, z = -0.21. Surfaces: 0 floor, 1 box; both reflect `rho`.
+Scene sunk_box(float rho);
+
+/// The same floor under the same sun, and a two-sided wall through it in the plane x = 0.13, 0.5 m above and below,
+/// across the whole width. Surfaces: 0 floor, 1 wall; both reflect `rho`.
+Scene wall_through_floor(float rho);
+
+/// A wall 2 m wide in the plane z = 0 and a panel 0.5 m wide `gap` metres in front of it, both towards +z and centred
+/// on the z axis; two triangles and one surface each, in this order.
+Scene panel_before_wall(float gap);
+
 /// A room 10 m x 4 m x 10 m with `count` boxes of random size, turned about y, and a lamp below the ceiling: for
 /// comparing makers of visibility. Boxes may overlap. The same `seed` gives the same scene everywhere.
 Scene many_boxes(int count, std::uint32_t seed);

@@ -4,7 +4,6 @@
 
 #include <glm/geometric.hpp>
 #include <numeric>
-#include <random>
 #include <set>
 #include <string>
 #include <utility>
@@ -20,8 +19,6 @@ double area_of(const SubTriangle& part) {
   return 0.5 * (u.x * v.y - u.y * v.x);
 }
 
-Barycentrics middle_of(const SubTriangle& part) { return (part.corner[0] + part.corner[1] + part.corner[2]) / 3.0F; }
-
 /// Whether `part` holds a point, give or take rounding.
 bool holds(const SubTriangle& part, Barycentrics at) {
   for (int k = 0; k < 3; ++k) {
@@ -32,7 +29,8 @@ bool holds(const SubTriangle& part, Barycentrics at) {
 }
 
 Patches patches_of(const Scene& scene, int max_patches) {
-  return make_patches(scene, {.max_patches = max_patches}, {});
+  const RayScene rays(scene);
+  return make_patches(rays, {.max_patches = max_patches}, {});
 }
 
 /// Area of everything that sends light, both sides of two-sided surfaces, m2.
@@ -75,51 +73,6 @@ struct Ramp final : SurfaceDetail {
   Rgb emission(std::uint32_t, const SubTriangle& part) const override { return Rgb(10.0F * middle_of(part).x); }
   float opacity(std::uint32_t, Barycentrics) const override { return 1.0F; }
 };
-
-TEST(Tiles, CoverTheTriangleInCongruentParts) {
-  for (std::uint32_t n = 1; n <= 9; ++n) {
-    double area = 0.0;
-    for (std::uint32_t tile = 0; tile < n * n; ++tile) {
-      EXPECT_NEAR(area_of(tile_part(n, tile)), 0.5 / (n * n), 1e-7) << n << ", " << tile;
-      EXPECT_TRUE(holds({}, middle_of(tile_part(n, tile))));
-      area += area_of(tile_part(n, tile));
-    }
-    EXPECT_NEAR(area, 0.5, 1e-6) << n;
-  }
-}
-
-TEST(Tiles, AreFoundFromTheirMiddle) {
-  for (std::uint32_t n = 1; n <= 9; ++n) {
-    for (std::uint32_t tile = 0; tile < n * n; ++tile) EXPECT_EQ(tile_at(n, middle_of(tile_part(n, tile))), tile) << n;
-  }
-}
-
-TEST(Tiles, HoldThePointsTheyAreFoundFrom) {
-  std::mt19937 generator(1);
-  const auto random = [&] { return static_cast<float>(generator() >> 8U) * 0x1p-24F; };
-  for (std::uint32_t n = 1; n <= 9; ++n) {
-    for (int k = 0; k < 2000; ++k) {
-      Barycentrics at(random(), random());
-      if (at.x + at.y > 1.0F) at = 1.0F - at;
-      EXPECT_TRUE(holds(tile_part(n, tile_at(n, at)), at)) << n << ": " << at.x << ", " << at.y;
-    }
-  }
-}
-
-TEST(Tiles, AreFoundAtCornersAndALittleOutside) {
-  for (std::uint32_t n = 1; n <= 9; ++n) {
-    for (const Barycentrics at : {Barycentrics(0, 0),
-                                  {1, 0},
-                                  {0, 1},
-                                  {0.5F, 0.5F},
-                                  {1.0001F, 0.0001F},
-                                  {-1e-5F, 0.5F},
-                                  {0.5F, -1e-5F},
-                                  {0.3F, 0.70001F}}) {
-      EXPECT_LT(tile_at(n, at), n * n) << at.x << ", " << at.y;
-    }
-  }
-}
 
 TEST(Patches, CoverTheArea) {
   for (const auto& [name, scene] : scenes()) {
@@ -202,12 +155,10 @@ TEST(Patches, KeepSurfacesAndDirectionsApart) {
   const Scene scene = test::unit_cube_faces();
   const Patches patches = patches_of(scene, 200);
   std::vector<std::uint32_t> surface_of_patch(patches.patch_count(), kNothing);
-  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
-    for (std::uint32_t k = patches.first_tile_of_triangle[t]; k < patches.first_tile_of_triangle[t + 1]; ++k) {
-      std::uint32_t& surface = surface_of_patch[patches.patch_of_tile[k]];
-      if (surface == kNothing) surface = scene.surface_of_triangle[t];
-      EXPECT_EQ(surface, scene.surface_of_triangle[t]);
-    }
+  for (const Tile& tile : patches.tiling.leaves()) {
+    std::uint32_t& surface = surface_of_patch[patches.patch_of_tile[tile.tile]];
+    if (surface == kNothing) surface = scene.surface_of_triangle[tile.triangle];
+    EXPECT_EQ(surface, scene.surface_of_triangle[tile.triangle]);
   }
 }
 
@@ -286,7 +237,9 @@ TEST(Patches, AreNoneInASceneWithoutArea) {
 
 TEST(Patches, StopWhenCancelled) {
   const Progress cancelled{.report = {}, .cancelled = [] { return true; }};
-  EXPECT_THROW(make_patches(test::cornell_box(), {}, cancelled), Cancelled);
+  const Scene scene = test::cornell_box();
+  const RayScene rays(scene);
+  EXPECT_THROW(make_patches(rays, {}, cancelled), Cancelled);
 }
 
 }  // namespace

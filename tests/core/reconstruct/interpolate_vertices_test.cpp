@@ -6,46 +6,21 @@
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
+
+#include "tests/core/test_meshes.h"
 
 namespace radiosity {
 namespace {
 
-/// Adds a grid of n x n quads, each of two triangles, between `origin`, `origin + u` and `origin + v`.
-void add_grid(RefinedMesh& mesh, int n, const glm::vec3& origin, const glm::vec3& u, const glm::vec3& v) {
-  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  const auto at = [&](int i, int j) { return first + static_cast<std::uint32_t>(j * (n + 1) + i); };
-  for (int j = 0; j <= n; ++j) {
-    for (int i = 0; i <= n; ++i) {
-      mesh.positions.push_back(origin + static_cast<float>(i) / static_cast<float>(n) * u +
-                               static_cast<float>(j) / static_cast<float>(n) * v);
-      mesh.normals.push_back(glm::normalize(glm::cross(u, v)));
-    }
-  }
-  for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < n; ++i) {
-      mesh.elements.emplace_back(at(i, j), at(i + 1, j), at(i + 1, j + 1));
-      mesh.elements.emplace_back(at(i, j), at(i + 1, j + 1), at(i, j + 1));
-    }
-  }
-}
+using test::add_grid;
+using test::grid;
+using test::middle;
 
-RefinedMesh grid(int n) {
-  RefinedMesh mesh;
-  add_grid(mesh, n, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-  return mesh;
-}
-
-glm::vec3 middle(const RefinedMesh& mesh, std::uint32_t e) {
-  const glm::uvec3& t = mesh.elements[e];
-  return (mesh.positions[t.x] + mesh.positions[t.y] + mesh.positions[t.z]) / 3.0F;
-}
-
-/// Elements lit by a function of their middle, none buried.
+/// Elements lit by a function of their middle, all known.
 ElementLight light_of(const RefinedMesh& mesh, const std::function<Rgb(const glm::vec3&)>& field) {
   ElementLight light;
   for (std::uint32_t e = 0; e < mesh.elements.size(); ++e) light.irradiance.push_back(field(middle(mesh, e)));
-  light.buried.assign(mesh.elements.size(), 0);
+  light.unknown.assign(mesh.elements.size(), 0);
   return light;
 }
 
@@ -125,8 +100,8 @@ TEST(InterpolateVertices, JoinsTheSidesOfASeam) {
 TEST(InterpolateVertices, DoesNotCountBuriedElements) {
   const RefinedMesh mesh = grid(6);
   ElementLight light = light_of(mesh, [](const glm::vec3&) { return Rgb(7.0F); });
-  for (std::size_t e = 0; e < light.buried.size(); e += 3) {
-    light.buried[e] = 1;
+  for (std::size_t e = 0; e < light.unknown.size(); e += 3) {
+    light.unknown[e] = 1;
     light.irradiance[e] = Rgb(0.0F);
   }
   for (const Rgb& value : interpolate_vertices(mesh, light)) EXPECT_FLOAT_EQ(value.x, 7.0F);
@@ -135,9 +110,9 @@ TEST(InterpolateVertices, DoesNotCountBuriedElements) {
 TEST(InterpolateVertices, FillsBuriedVerticesFromTheirNeighbours) {
   const RefinedMesh mesh = grid(10);
   ElementLight light = light_of(mesh, [](const glm::vec3&) { return Rgb(7.0F); });
-  for (std::uint32_t e = 0; e < light.buried.size(); ++e) {
+  for (std::uint32_t e = 0; e < light.unknown.size(); ++e) {
     if (middle(mesh, e).x < 0.5F) continue;
-    light.buried[e] = 1;
+    light.unknown[e] = 1;
     light.irradiance[e] = Rgb(0.0F);
   }
   for (const Rgb& value : interpolate_vertices(mesh, light)) EXPECT_FLOAT_EQ(value.x, 7.0F);
@@ -146,40 +121,11 @@ TEST(InterpolateVertices, FillsBuriedVerticesFromTheirNeighbours) {
 TEST(InterpolateVertices, LeavesDarkWhatNoLightIsKnownOf) {
   const RefinedMesh mesh = grid(3);
   ElementLight light = light_of(mesh, [](const glm::vec3&) { return Rgb(7.0F); });
-  light.buried.assign(light.buried.size(), 1);
+  light.unknown.assign(light.unknown.size(), 1);
   for (const Rgb& value : interpolate_vertices(mesh, light)) EXPECT_EQ(value, Rgb(0.0F));
 }
 
 TEST(InterpolateVertices, AcceptsAnEmptyMesh) { EXPECT_TRUE(interpolate_vertices({}, {}).empty()); }
-
-/// A vertex shared by two triangles, each with a copy of its own; their normals differ by an angle.
-RefinedMesh two_copies(float degrees, bool with_normals) {
-  RefinedMesh mesh;
-  const float angle = glm::radians(degrees);
-  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {-std::cos(angle), 0, -std::sin(angle)}, {0, 1, 0}};
-  mesh.elements = {{0, 1, 2}, {3, 5, 4}};
-  const glm::vec3 other = glm::normalize(glm::cross(mesh.positions[5], mesh.positions[4]));
-  mesh.normals.assign(6, glm::vec3(0.0F));
-  if (with_normals) mesh.normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, other, other, other};
-  return mesh;
-}
-
-TEST(SmoothGroups, JoinNormalsWithinFifteenDegrees) {
-  for (const bool with_normals : {false, true}) {
-    const SmoothGroups joined = find_smooth_groups(two_copies(10.0F, with_normals));
-    EXPECT_EQ(joined.group_of_vertex[0], joined.group_of_vertex[3]);
-    EXPECT_EQ(joined.group_of_vertex[2], joined.group_of_vertex[5]);
-    EXPECT_EQ(joined.group_count, 4U);
-    const SmoothGroups apart = find_smooth_groups(two_copies(20.0F, with_normals));
-    EXPECT_NE(apart.group_of_vertex[0], apart.group_of_vertex[3]);
-    EXPECT_EQ(apart.group_count, 6U);
-  }
-}
-
-TEST(SmoothGroups, AreNumberedByFirstAppearance) {
-  const SmoothGroups groups = find_smooth_groups(two_copies(0.0F, true));
-  EXPECT_EQ(groups.group_of_vertex, (std::vector<std::uint32_t>{0, 1, 2, 0, 3, 2}));
-}
 
 }  // namespace
 }  // namespace radiosity

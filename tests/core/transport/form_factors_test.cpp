@@ -22,10 +22,8 @@ double sum(const FormFactorRow& row) {
 
 std::vector<std::uint32_t> surfaces_of_patches(const PreparedScene& s) {
   std::vector<std::uint32_t> surface(s.patches.patch_count(), kNothing);
-  for (std::uint32_t t = 0; t < s.scene.triangles.size(); ++t) {
-    for (std::uint32_t k = s.patches.first_tile_of_triangle[t]; k < s.patches.first_tile_of_triangle[t + 1]; ++k) {
-      surface[s.patches.patch_of_tile[k]] = s.scene.surface_of_triangle[t];
-    }
+  for (const Tile& tile : s.patches.tiling.leaves()) {
+    surface[s.patches.patch_of_tile[tile.tile]] = s.scene.surface_of_triangle[tile.triangle];
   }
   return surface;
 }
