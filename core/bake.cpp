@@ -1,11 +1,10 @@
 #include "core/bake.h"
 
-#include <tbb/global_control.h>
-
 #include <algorithm>
 #include <memory>
 
 #include "core/mesh/patches.h"
+#include "core/parallel.h"
 #include "core/reconstruct/fit_vertices.h"
 #include "core/reconstruct/gather.h"
 #include "core/reconstruct/interpolate_vertices.h"
@@ -57,26 +56,26 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
   const RayScene rays(scene);
   const Patches patches = make_patches(rays, {options.max_patches, 1}, progress);
 
-  // Visibility.
+  // Visibility. A fit averages over many samples, so their hemicubes are half as wide.
   const bool raster = use_raster(scene, options);
   const auto items = raster ? make_item_buffer_raster(scene) : make_item_buffer_rays(rays);
   const Hemicube patch_hemicube(options.hemicube_resolution);
-  const auto row_source = make_hemicube_rows(patches, patch_hemicube, *items, surface_offset(scene));
+  const Hemicube sample_hemicube(std::max(2, options.hemicube_resolution / 4 * 2));
+  const SmoothSky sky(scene.sky, sample_hemicube.resolution());
+  const auto row_source = make_hemicube_rows(patches, patch_hemicube, *items, sky, surface_offset(scene));
   RowCache rows(*row_source, options.row_cache_bytes);
 
   // Transport: direct light first, then the exchange between patches.
-  const DirectLight direct_light(rays, patches, {});
+  const DirectLight direct_light(rays, patches, {options.lamp_rays, std::max(1, options.lamp_rays / 4)});
   std::vector<Rgb> direct = direct_on_patches(direct_light, patches, progress);
-  add_sky(scene.sky, rows, direct, progress);
+  add_sky(sky, rows, direct, progress);
   const SolveProblem problem{patches, direct, options.residual};
   const Solution solution = options.solver == Solver::kGathering ? solve_gathering(problem, rows, progress)
                                                                  : solve_progressive(problem, rows, progress);
 
-  // Reconstruction: light at samples inside the elements, then at vertices. A fit averages over many samples, so their
-  // hemicubes are half as wide.
-  const Hemicube sample_hemicube(std::max(2, options.hemicube_resolution / 4 * 2));
-  const Gatherer gatherer{
-      scene, patches, sample_hemicube, *items, direct_light, solution.radiosity, surface_offset(scene)};
+  // Reconstruction: light at samples inside the elements, then at vertices.
+  const Gatherer gatherer{scene,        patches, sample_hemicube,    *items,
+                          direct_light, sky,     solution.radiosity, surface_offset(scene)};
   const Samples samples = gather_samples(result.mesh, gatherer, {}, progress);
   progress.update("fit", 0.0);
   result.irradiance = options.fit == Fit::kInterpolate ? interpolate_vertices(result.mesh, mean_of_samples(samples))
@@ -93,10 +92,7 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
 }  // namespace
 
 Bake bake(const Scene& scene, const BakeOptions& options, const Progress& progress) {
-  if (options.threads <= 0) return bake_here(scene, options, progress);
-  const auto threads = static_cast<std::size_t>(options.threads);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-  return bake_here(scene, options, progress);
+  return on_threads(options.threads, [&] { return bake_here(scene, options, progress); });
 }
 
 }  // namespace radiosity

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -11,6 +12,14 @@
 #include "core/progress.h"
 
 namespace radiosity {
+
+/// Does `work` on at most `threads` threads; 0 takes every core.
+template <typename Work>
+auto on_threads(int threads, const Work& work) -> decltype(work()) {
+  if (threads <= 0) return work();
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  return work();
+}
 
 /// Calls `work(k)` once for every k in [0, count), concurrently within a chunk of `chunk` calls. Each call must write
 /// only what belongs to its k: then the result does not depend on the number of threads. Throws `Cancelled` between

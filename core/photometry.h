@@ -25,7 +25,4 @@ constexpr Rgb reflected_luminance(const Rgb& reflectance, const Rgb& irradiance)
   return reflectance * irradiance * (1.0F / kPi);
 }
 
-/// The three bands as the eye weighs them (Rec. 709).
-constexpr float luminance_of(const Rgb& rgb) { return 0.2126F * rgb.x + 0.7152F * rgb.y + 0.0722F * rgb.z; }
-
 }  // namespace radiosity

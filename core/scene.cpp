@@ -98,11 +98,10 @@ std::optional<std::string> validate_lights(const Scene& scene) {
       return place("lights", i) + " has an inner cone wider than its outer cone";
     }
   }
-  if (!is_light(scene.sky)) {
-    return "the sky is negative or not finite";
-  }
   return std::nullopt;
 }
+
+std::optional<std::string> validate_sky(const Scene& scene) { return validate(scene.sky); }
 
 const Surface& surface_of(const Scene& scene, std::uint32_t triangle) {
   return scene.surfaces[scene.surface_of_triangle[triangle]];
@@ -111,7 +110,7 @@ const Surface& surface_of(const Scene& scene, std::uint32_t triangle) {
 }  // namespace
 
 std::optional<std::string> validate(const Scene& scene) {
-  for (const auto check : {validate_vertices, validate_triangles, validate_surfaces, validate_lights}) {
+  for (const auto check : {validate_vertices, validate_triangles, validate_surfaces, validate_lights, validate_sky}) {
     if (auto wrong = check(scene)) {
       return wrong;
     }
@@ -166,7 +165,7 @@ Rgb mean_emission(const Scene& scene, std::uint32_t triangle, const SubTriangle&
   return glm::max(emission, Rgb(0.0F));
 }
 
-Rgb sky_luminance(const Scene& scene, const glm::vec3& /*direction*/) { return scene.sky; }
+Rgb sky_luminance(const Scene& scene, const glm::vec3& direction) { return luminance_towards(scene.sky, direction); }
 
 bool lets_through(const Scene& scene, std::uint32_t triangle, Barycentrics at, float threshold) {
   if (!surface_of(scene, triangle).see_through) {

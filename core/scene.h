@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-namespace radiosity {
+#include "core/rgb.h"
+#include "core/sky.h"
 
-/// A quantity in the three linear Rec. 709 bands (red, green, blue).
-using Rgb = glm::vec3;
+namespace radiosity {
 
 /// Marks "no triangle", "no patch", "no vertex".
 inline constexpr std::uint32_t kNothing = 0xffffffffU;
@@ -78,7 +78,7 @@ struct Scene {
   std::vector<std::uint32_t> surface_of_triangle;
   std::vector<Surface> surfaces;
   std::vector<Light> lights;
-  Rgb sky{0.0F};                          ///< luminance of every direction that hits nothing, cd/m2
+  Sky sky;                                ///< what shows wherever nothing is hit
   const SurfaceDetail* detail = nullptr;  ///< not owned; needed if any surface `varies` or is `see_through`
 };
 
@@ -103,7 +103,7 @@ Rgb mean_reflectance(const Scene& scene, std::uint32_t triangle, const SubTriang
 /// Emitted luminance averaged over a part of a triangle, cd/m2.
 Rgb mean_emission(const Scene& scene, std::uint32_t triangle, const SubTriangle& part);
 
-/// Luminance that the open sky shows in a direction (unit, away from the viewer), cd/m2.
+/// Luminance that the open sky shows in a direction (unit, away from the viewer), cd/m2: exact, a sun in it and all.
 Rgb sky_luminance(const Scene& scene, const glm::vec3& direction);
 
 /// Whether light passes through `triangle` at `at`. A partly opaque surface lets a ray through if its opacity is not

@@ -17,7 +17,7 @@ constexpr std::uint64_t kMaxTexcoord = 63;
 
 constexpr std::string_view kSupportedExtensions[] = {
     "KHR_draco_mesh_compression", "KHR_texture_transform", "KHR_lights_punctual", "KHR_mesh_quantization",
-    "EXT_texture_webp",
+    "EXT_texture_webp", "EXT_lights_image_based",
     "KHR_texture_basisu",  // textures without a plain image: import_textures
     "KHR_materials_emissive_strength", "KHR_materials_unlit",
     "KHR_materials_pbrSpecularGlossiness",  // import_materials warns
@@ -47,6 +47,7 @@ class TreeChecker : private JsonChecker {
     check_nodes();
     check_forest();
     check_scenes();
+    if (!error_) return check_environment(root_);
     return result();
   }
 

@@ -13,6 +13,9 @@ Result<Done> check_structure(const Json& root);
 /// The part of check_structure for buffers, bufferViews, accessors and meshes. REQUIRES: these are arrays of objects.
 Result<Done> check_data(const Json& root);
 
+/// The part of check_structure for EXT_lights_image_based. REQUIRES: scenes are objects.
+Result<Done> check_environment(const Json& root);
+
 /// Checks what needs the buffers' bytes: the indices of sparse accessors. REQUIRES: check_structure passed.
 Result<Done> check_sparse_indices(const Document& document);
 

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace gltf_radiosity {
 namespace {
+
+constexpr int kMaxPaths = 1 << 20;
 
 bool is_finite_and_at_least(double value, double least) { return std::isfinite(value) && value >= least; }
 
@@ -13,11 +16,11 @@ bool is_valid(const Sun& sun) {
          is_finite_and_at_least(sun.illuminance_lux, 0.0);
 }
 
+Error refuse(const char* option, const char* why) { return {ErrorCode::kBadOption, option, why}; }
+
 }  // namespace
 
 Result<Done> check_options(const Options& options) {
-  const auto refuse = [](const char* option, const char* why) { return Error{ErrorCode::kBadOption, option, why}; };
-
   // Mesh.
   if (!is_finite_and_at_least(options.patch_size, 0.0)) return refuse("--patch-size", "must not be negative");
   for (const auto& [name, level] : options.subdivide) {
@@ -29,6 +32,8 @@ Result<Done> check_options(const Options& options) {
                                   [](double band) { return is_finite_and_at_least(band, 0.0); })) {
     return refuse("--sky", "must not be negative");
   }
+  if (options.sky && !options.sky_file.empty()) return refuse("--sky", "is either a luminance or a file");
+  if (!std::isfinite(options.sky_rotation_degrees)) return refuse("--sky-rotation", "must be finite");
   if (options.sun && !is_valid(*options.sun)) {
     return refuse("--sun", "needs an elevation between -90 and 90 degrees and an illuminance that is not negative");
   }
@@ -44,6 +49,33 @@ Result<Done> check_options(const Options& options) {
   // Output.
   if (options.exposure && !(is_finite_and_at_least(*options.exposure, 0.0) && *options.exposure > 0.0)) {
     return refuse("--exposure", "must be above 0");
+  }
+  return Done{};
+}
+
+Result<Done> check_options(const VerifyOptions& options) {
+  if (const auto checked = check_options(options.bake); !checked) return checked.error();
+
+  // Sampling.
+  if (options.points < 1 || options.points > 10'000'000) return refuse("--points", "must lie between 1 and 1e7");
+  if (!(is_finite_and_at_least(options.noise, 0.0) && options.noise > 0.0)) return refuse("--noise", "must be above 0");
+  if (options.max_samples < 64 || options.max_samples > kMaxPaths) {
+    return refuse("--max-samples", "must lie between 64 and 1048576");
+  }
+
+  // Picture.
+  const VerifyCamera& camera = options.camera;
+  if (options.image_samples < 1 || options.image_samples > kMaxPaths) {
+    return refuse("--image-samples", "must lie between 1 and 1048576");
+  }
+  for (const auto& [option, place] : {std::pair("--eye", &camera.eye), std::pair("--at", &camera.at)}) {
+    if (*place && !std::ranges::all_of(**place, [](double x) { return std::isfinite(x) && std::abs(x) < 1e30; })) {
+      return refuse(option, "must be finite");
+    }
+  }
+  if (!(camera.fov_degrees > 0.0 && camera.fov_degrees < 180.0)) return refuse("--fov", "must lie between 0 and 180");
+  if (std::min(camera.width, camera.height) < 16 || std::max(camera.width, camera.height) > 8192) {
+    return refuse("--size", "must lie between 16 and 8192");
   }
   return Done{};
 }

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cstring>
-#include <exception>
-#include <new>
 #include <utility>
 
 #include "core/bake.h"
 #include "plugin/check_options.h"
 #include "plugin/document.h"
 #include "plugin/export_scene.h"
+#include "plugin/firewall.h"
 #include "plugin/import_scene.h"
 #include "plugin/make_report.h"
 #include "plugin/phases.h"
@@ -17,22 +16,6 @@
 
 namespace gltf_radiosity {
 namespace {
-
-/// The one place where exceptions become errors: those of core, of the libraries and of the caller's callbacks.
-template <typename Work>
-auto behind_firewall(const Work& work) -> decltype(work()) {
-  try {
-    return work();
-  } catch (const radiosity::Cancelled&) {
-    return Error{ErrorCode::kCancelled, "", "cancelled"};
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::kLimit, "", "not enough memory"};
-  } catch (const std::exception& exception) {
-    return Error{ErrorCode::kInternal, "", exception.what()};
-  } catch (...) {
-    return Error{ErrorCode::kInternal, "", "unknown exception"};
-  }
-}
 
 radiosity::Visibility visibility_of(VisibilityMethod method) {
   switch (method) {

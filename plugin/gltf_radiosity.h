@@ -44,6 +44,8 @@ struct Options {
   std::vector<std::pair<std::string, int>> subdivide;  ///< node name -> times each triangle is cut in four, [0, 8]
   // Light
   std::optional<std::array<double, 3>> sky;  ///< luminance of the open sky, cd/m2, linear Rec. 709
+  std::string sky_file;               ///< or a Radiance HDR image of it, equirectangular, cd/m2; +x in its middle
+  double sky_rotation_degrees = 0.0;  ///< turns the sky about y, towards larger azimuth
   std::optional<Sun> sun;
   bool default_sky = true;  ///< a scene without any light gets a white sky of 1 cd/m2
   Metals metals = Metals::kDiffuse;
@@ -53,7 +55,7 @@ struct Options {
   VisibilityMethod visibility = VisibilityMethod::kAuto;
   SolverMethod solver = SolverMethod::kGathering;
   double residual = 0.001;  ///< stop at this share of unshot flux, (0, 1)
-  int max_patches = 25'000;
+  int max_patches = 20'000;
   int threads = 0;  ///< 0: every core
   // Output
   std::optional<double> exposure;  ///< k, m2/cd; none chooses automatically

@@ -1,4 +1,4 @@
-// KHR_lights_punctual, --sky and --sun -> core lights.
+// KHR_lights_punctual and --sun -> core lights.
 #pragma once
 
 #include <glm/mat4x4.hpp>

@@ -19,6 +19,7 @@
 #include "plugin/import_geometry.h"
 #include "plugin/import_lights.h"
 #include "plugin/import_nodes.h"
+#include "plugin/import_sky.h"
 
 namespace gltf_radiosity {
 namespace {
@@ -49,21 +50,31 @@ class SceneImporter {
       : document_(document), model_(model), options_(options), warnings_(warnings), textures_(document) {}
 
   Result<ImportedScene> run() {
-    auto placed = place_nodes(document_, model_, options_.subdivide, warnings_);
-    if (!placed) return placed.error();
-    for (const std::uint32_t node : placed->visible) {
-      if (auto done = import_node(*placed, node); !done) return done.error();
-    }
+    if (auto done = import_surfaces(); !done) return done.error();
     if (auto done = check_that_there_is_work(); !done) return done.error();
-    finish_detail();
     count_emissive_triangles();
     if (auto done = import_environment(); !done) return done.error();
     warn();
     return std::move(result_);
   }
 
+  Result<ImportedScene> run_without_light() {
+    if (auto done = import_surfaces(); !done) return done.error();
+    return std::move(result_);
+  }
+
  private:
   // Nodes.
+
+  Result<Done> import_surfaces() {
+    auto placed = place_nodes(document_, model_, options_.subdivide, warnings_);
+    if (!placed) return placed.error();
+    for (const std::uint32_t node : placed->visible) {
+      if (auto done = import_node(*placed, node); !done) return done.error();
+    }
+    finish_detail();
+    return Done{};
+  }
 
   Result<Done> import_node(const PlacedNodes& placed, std::uint32_t node) {
     const Json& json = document_.json["nodes"][node];
@@ -273,13 +284,9 @@ class SceneImporter {
 
   Result<Done> import_environment() {
     radiosity::Scene& scene = result_.scene;
-    if (options_.sky) {
-      for (int band = 0; band < 3; ++band) {
-        const double value = (*options_.sky)[static_cast<std::size_t>(band)];
-        if (!(value >= 0.0 && value < 1e30)) return Error{ErrorCode::kBadOption, "sky", "is negative or not finite"};
-        scene.sky[band] = static_cast<float>(value);
-      }
-    }
+    auto sky = import_sky(document_, options_, warnings_);
+    if (!sky) return sky.error();
+    if (*sky) scene.sky = std::move(**sky);
     if (options_.sun) {
       const Sun& sun = *options_.sun;
       const bool fine = std::isfinite(sun.elevation_degrees) && std::isfinite(sun.azimuth_degrees) &&
@@ -289,9 +296,9 @@ class SceneImporter {
     }
     const bool has_lights = std::any_of(scene.lights.begin(), scene.lights.end(),
                                         [](const radiosity::Light& light) { return light.intensity != Rgb(0.0F); });
-    if (has_lights || result_.emissive_triangle_count > 0 || options_.sky || options_.sun || !options_.default_sky)
+    if (has_lights || result_.emissive_triangle_count > 0 || *sky || options_.sun || !options_.default_sky)
       return Done{};
-    scene.sky = Rgb(1.0F);
+    scene.sky.luminance = Rgb(1.0F);
     warnings_.push_back({"default-sky", "", "the scene has no light; a white sky of 1 cd/m2 was put around it"});
     return Done{};
   }
@@ -374,6 +381,13 @@ Result<ImportedScene> import_scene(const Document& document, const Options& opti
   const auto model = typed_view(document);
   if (!model) return model.error();
   return SceneImporter(document, **model, options, warnings).run();
+}
+
+Result<ImportedScene> import_displayed(const Document& document, std::vector<Warning>& warnings) {
+  const auto model = typed_view(document);
+  if (!model) return model.error();
+  const Options options;
+  return SceneImporter(document, **model, options, warnings).run_without_light();
 }
 
 }  // namespace gltf_radiosity

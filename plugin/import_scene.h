@@ -42,4 +42,8 @@ struct ImportedScene {
 /// (ErrorCode::kLimit) and options that do not suit the file (kBadOption).
 Result<ImportedScene> import_scene(const Document& document, const Options& options, std::vector<Warning>& warnings);
 
+/// The same walk for a scene that is only to be looked at, as one that is baked already: everything may be unlit, and
+/// nothing shines on it from outside.
+Result<ImportedScene> import_displayed(const Document& document, std::vector<Warning>& warnings);
+
 }  // namespace gltf_radiosity

@@ -10,6 +10,7 @@
 
 #include "plugin/check_document.h"
 #include "plugin/image_decode.h"
+#include "plugin/srgb.h"
 
 namespace gltf_radiosity {
 namespace {
@@ -19,23 +20,12 @@ constexpr float kMaxTexels = 64.0F;        ///< of these, about as many lie in t
 constexpr std::size_t kMaxStorage = 1040;  ///< cells and a margin, for the narrowest grid of kMaxCells
 constexpr float kFarAway = 1.0e6F;         ///< texture coordinates beyond it have no fraction worth speaking of
 
-/// sRGB 8 bit -> linear.
-std::array<float, 256> make_srgb_table() {
-  std::array<float, 256> table{};
-  for (std::size_t i = 0; i < table.size(); ++i) {
-    const double encoded = static_cast<double>(i) / 255.0;
-    table[i] = static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
-  }
-  return table;
-}
-
 std::array<float, 256> make_linear_table() {
   std::array<float, 256> table{};
   for (std::size_t i = 0; i < table.size(); ++i) table[i] = static_cast<float>(i) / 255.0F;
   return table;
 }
 
-const std::array<float, 256> kSrgbToLinear = make_srgb_table();
 const std::array<float, 256> kByteToLinear = make_linear_table();
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "plugin/make_report.h"
+#include "plugin/report_lists.h"
 
 namespace gltf_radiosity {
 
@@ -52,8 +53,19 @@ void add_warnings(const radiosity::BakeReport& bake, std::vector<Warning>& warni
     warn("element-limit", "the mesh grew too large before its edges were as short as the patch size");
 }
 
+void add_lists(std::span<const PhaseReport> phases, std::span<const Warning> warnings, Json& report) {
+  report["phases"] = Json::array();
+  for (const PhaseReport& phase : phases) {
+    report["phases"].push_back(
+        {{"name", phase.name}, {"seconds", phase.seconds}, {"peakMemoryBytes", phase.peak_memory_bytes}});
+  }
+  report["warnings"] = Json::array();
+  for (const Warning& warning : warnings) {
+    report["warnings"].push_back({{"code", warning.code}, {"place", warning.place}, {"message", warning.message}});
+  }
+}
+
 std::string to_json(const Report& report) {
-  // Figures.
   Json json = {{"version", version()},
                {"inputTriangles", report.input_triangles},
                {"inputVertices", report.input_vertices},
@@ -73,16 +85,7 @@ std::string to_json(const Report& report) {
                {"clippedShare", report.clipped_share},
                {"visibility", report.visibility}};
 
-  // Lists.
-  json["phases"] = Json::array();
-  for (const PhaseReport& phase : report.phases) {
-    json["phases"].push_back(
-        {{"name", phase.name}, {"seconds", phase.seconds}, {"peakMemoryBytes", phase.peak_memory_bytes}});
-  }
-  json["warnings"] = Json::array();
-  for (const Warning& warning : report.warnings) {
-    json["warnings"].push_back({{"code", warning.code}, {"place", warning.place}, {"message", warning.message}});
-  }
+  add_lists(report.phases, report.warnings, json);
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -20,7 +20,7 @@ glm::vec2 SceneDetail::texcoord(int set, std::uint32_t triangle, Barycentrics at
   return uv[corners.x] * (1.0F - at.x - at.y) + uv[corners.y] * at.x + uv[corners.z] * at.y;
 }
 
-glm::vec4 SceneDetail::color(std::uint32_t triangle, Barycentrics at) const {
+glm::vec4 SceneDetail::vertex_color(std::uint32_t triangle, Barycentrics at) const {
   if (surface_has_colors[surface_of_triangle[triangle]] == 0) return glm::vec4(1.0F);
   const float weight[3] = {1.0F - at.x - at.y, at.x, at.y};
   glm::vec4 sum(0.0F);
@@ -29,6 +29,12 @@ glm::vec4 SceneDetail::color(std::uint32_t triangle, Barycentrics at) const {
     sum += glm::vec4(rgba[0], rgba[1], rgba[2], rgba[3]) * weight[corner];
   }
   return sum;
+}
+
+Rgb SceneDetail::unlit_color(std::uint32_t triangle, Barycentrics at) const {
+  const ImportedMaterial& material = material_of(triangle);
+  const glm::vec4 texel = material.base_color.at(texcoord(material.base_color.texcoord, triangle, at));
+  return Rgb(material.base_color_factor * texel * vertex_color(triangle, at));
 }
 
 glm::vec4 SceneDetail::texture_mean(const TextureSlot& slot, std::uint32_t triangle, const SubTriangle& part) const {
@@ -44,7 +50,7 @@ Rgb SceneDetail::reflectance(std::uint32_t triangle, const SubTriangle& part) co
   // Linear in between, so the mean is the value at the middle.
   const Barycentrics middle = (part.corner[0] + part.corner[1] + part.corner[2]) / 3.0F;
   const glm::vec4 mean =
-      material.base_color_factor * texture_mean(material.base_color, triangle, part) * color(triangle, middle);
+      material.base_color_factor * texture_mean(material.base_color, triangle, part) * vertex_color(triangle, middle);
   return Rgb(mean) * material.diffuse_share(texture_mean(material.metallic_roughness, triangle, part).z);
 }
 
@@ -57,7 +63,7 @@ Rgb SceneDetail::emission(std::uint32_t triangle, const SubTriangle& part) const
 float SceneDetail::opacity(std::uint32_t triangle, Barycentrics at) const {
   const ImportedMaterial& material = material_of(triangle);
   if (material.alpha_mode == AlphaMode::kOpaque) return 1.0F;
-  float alpha = material.base_color_factor.w * color(triangle, at).w;
+  float alpha = material.base_color_factor.w * vertex_color(triangle, at).w;
   if (material.base_color) alpha *= material.base_color.at(texcoord(material.base_color.texcoord, triangle, at)).w;
   if (material.alpha_mode == AlphaMode::kMask) return alpha < material.alpha_cutoff ? 0.0F : 1.0F;
   return alpha;

@@ -35,13 +35,16 @@ class SceneDetail : public radiosity::SurfaceDetail {
   radiosity::Rgb emission(std::uint32_t triangle, const radiosity::SubTriangle& part) const override;
   float opacity(std::uint32_t triangle, radiosity::Barycentrics at) const override;
 
+  /// COLOR_0 at a point, linear RGBA; white where the surface has none.
+  glm::vec4 vertex_color(std::uint32_t triangle, radiosity::Barycentrics at) const;
+  /// What an engine that knows no light shows at a point: base colour factor times texture times COLOR_0, linear.
+  radiosity::Rgb unlit_color(std::uint32_t triangle, radiosity::Barycentrics at) const;
   /// Mean of a texture of the triangle's material over a part of it, linear RGBA; white for an empty slot.
   glm::vec4 texture_mean(const TextureSlot& slot, std::uint32_t triangle, const radiosity::SubTriangle& part) const;
 
  private:
   const ImportedMaterial& material_of(std::uint32_t triangle) const;
   glm::vec2 texcoord(int set, std::uint32_t triangle, radiosity::Barycentrics at) const;
-  glm::vec4 color(std::uint32_t triangle, radiosity::Barycentrics at) const;
 };
 
 /// Mean of the base colour *texture*, without factors, over a part of a scene triangle; linear, white without a

@@ -25,6 +25,7 @@ from features import (  # noqa: E402
     uv_seam,
 )
 from rooms import sky_court, two_rooms, white_furnace  # noqa: E402
+from skies import image_based_light, sunny_hdr  # noqa: E402
 from textured_interior import textured_interior  # noqa: E402
 
 
@@ -46,6 +47,7 @@ def scenes():
         "white_furnace_90": white_furnace(reflectance=0.9, luminance=0.05),
         "two_rooms": two_rooms(),
         "sky_court": sky_court(),
+        "image_based_light": image_based_light(),
         "cornell_box": cornell_box(),
         "cornell_box_1500": cornell_box(vertices=1500),
         "cornell_box_5000": cornell_box(vertices=5000),
@@ -61,6 +63,7 @@ def main():
     for name, gltf in scenes().items():
         gltf.save_glb(folder / f"{name}.glb")
     multi_buffer(folder)
+    (folder / "sunny.hdr").write_bytes(sunny_hdr())
 
 
 if __name__ == "__main__":

@@ -3,18 +3,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cmath>
-#include <filesystem>
-#include <functional>
 #include <memory>
 #include <optional>
-#include <sstream>
-#include <string_view>
 #include <utility>
 
-#include "tools/exit_code.h"
 #include "tools/help_text.h"
 #include "tools/option_values.h"
+#include "tools/shared_options.h"
 
 namespace gltf_radiosity::tools {
 namespace {
@@ -22,19 +19,12 @@ namespace {
 // ---- values that have names ----
 
 constexpr Choices<Refine, 2> kRefine{{{"none", Refine::kNone}, {"uniform", Refine::kUniform}}};
-constexpr Choices<Metals, 2> kMetals{{{"diffuse", Metals::kDiffuse}, {"black", Metals::kBlack}}};
-constexpr Choices<LightUnits, 3> kLightUnits{
-    {{"auto", LightUnits::kAuto}, {"si", LightUnits::kSi}, {"blender", LightUnits::kBlender}}};
 constexpr Choices<VisibilityMethod, 3> kVisibility{
     {{"raster", VisibilityMethod::kRaster}, {"rays", VisibilityMethod::kRays}, {"auto", VisibilityMethod::kAuto}}};
 constexpr Choices<SolverMethod, 2> kSolver{
     {{"progressive", SolverMethod::kProgressive}, {"gathering", SolverMethod::kGathering}}};
 constexpr Choices<ColorType, 3> kColorType{
     {{"float", ColorType::kFloat}, {"u16", ColorType::kU16}, {"u8", ColorType::kU8}}};
-constexpr Choices<ProgressStyle, 4> kProgress{{{"bar", ProgressStyle::kBar},
-                                               {"plain", ProgressStyle::kPlain},
-                                               {"none", ProgressStyle::kNone},
-                                               {"auto", ProgressStyle::kAuto}}};
 
 /// What --quality sets unless the option itself is given.
 struct Quality {
@@ -43,39 +33,6 @@ struct Quality {
 };
 constexpr Quality kMedium{Options{}.hemicube, Options{}.max_patches};
 constexpr Choices<Quality, 3> kQuality{{{"draft", {16, 1500}}, {"medium", kMedium}, {"high", {64, 12000}}}};
-
-// ---- how an option is declared ----
-
-/// The part of an option that people read.
-struct OptionText {
-  std::string name;
-  std::string type;         ///< what to write after the name
-  std::string preset;       ///< the default as one would write it
-  std::string description;  ///< with the unit
-};
-
-/// Adds an option whose value `read` takes; what it throws as BadValue becomes a message that names the option.
-CLI::Option* add(CLI::App& app, const OptionText& text, const std::function<void(const std::string&)>& read) {
-  const auto callback = [name = text.name, read](const std::string& value) {
-    try {
-      read(value);
-    } catch (const BadValue& bad) {
-      throw CLI::ValidationError(name, bad.what());
-    }
-  };
-  return app.add_option_function<std::string>(text.name, callback, text.description)
-      ->type_name(text.type)
-      ->default_str(text.preset)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-}
-
-/// Adds an option that chooses one of the named values.
-template <typename Value, std::size_t count>
-void add_choice(CLI::App& app, const std::string& name, const std::string& description, Value& value,
-                const Choices<Value, count>& choices) {
-  add(app, {name, names_of(choices), name_of(value, choices), description},
-      [&value, &choices](const std::string& text) { value = parse_choice(text, choices); });
-}
 
 // ---- the options, group by group ----
 
@@ -109,32 +66,6 @@ void add_mesh_options(CLI::App& app, Options& options) {
       ->type_name("NAME=LEVEL")
       ->default_str("none")
       ->allow_extra_args(false);
-}
-
-void add_light_options(CLI::App& app, Options& options) {
-  app.option_defaults()->group("Light");
-  add(app,
-      {"--sky", "R,G,B", "none", "Luminance of the open sky in cd/m2: red, green, blue, linear Rec. 709, not negative"},
-      [&options](const std::string& text) {
-        options.sky = parse_triple(text, {Range{}, Range{}, Range{}});
-      })
-      ->join(',');
-  add(app,
-      {"--sun", "EL,AZ,LUX", "none",
-       "The sun: elevation -90 to 90 and azimuth -360 to 360 in degrees (it stands at (cos EL sin AZ, sin EL, cos EL "
-       "cos "
-       "AZ), y up), and the lux it brings to a surface that faces it"},
-      [&options](const std::string& text) { options.sun = parse_sun(text); })
-      ->join(',');
-  app.add_flag_callback(
-      "--no-default-sky", [&options] { options.default_sky = false; },
-      "Bake a scene without any light black, instead of under a white sky of 1 cd/m2 (default: off)");
-  add_choice(app, "--metals", "Metals reflect their base colour as if they were painted (diffuse), or nothing (black)",
-             options.metals, kMetals);
-  add_choice(app, "--light-units",
-             "Lights of the file: candela and lux as glTF says (si), 683 times too bright as Blender writes them "
-             "(blender), or what the file's generator suggests (auto)",
-             options.light_units, kLightUnits);
 }
 
 void add_quality(CLI::App& app, std::optional<Quality>& quality) {
@@ -171,10 +102,7 @@ void add_transport_options(CLI::App& app, Options& options, std::optional<Qualit
   add_choice(app, "--solver",
              "Shoot from the brightest patch first (progressive), or let all patches gather in turn (gathering)",
              options.solver, kSolver);
-  add(app,
-      {"--threads", "COUNT", std::to_string(options.threads),
-       "Threads, up to 1024; 0 uses every core. The result is the same for any number"},
-      [&options](const std::string& text) { options.threads = parse_integer(text, 0, 1024); });
+  add_threads_option(app, options);
 }
 
 void add_output_options(CLI::App& app, CommandLine& line) {
@@ -194,12 +122,8 @@ void add_output_options(CLI::App& app, CommandLine& line) {
       ->excludes(exposure);
   add_choice(app, "--color-type", "How COLOR_0 is stored: float, or normalised integers of 16 or 8 bits",
              options.color_type, kColorType);
-  add(app, {"--json", "FILE", "none", "Write a report for programs, also when the bake fails; - writes it to stdout"},
-      [&line](const std::string& text) { line.json = text; });
-  add_choice(app, "--progress",
-             "On stderr: a bar, plain lines, or nothing but warnings and errors; auto is a bar on a terminal and lines "
-             "elsewhere",
-             line.progress, kProgress);
+  add_json_option(app, line.json);
+  add_progress_option(app, line.progress);
 }
 
 void add_other_options(CLI::App& app) {
@@ -209,8 +133,7 @@ void add_other_options(CLI::App& app) {
                  "line wins (default: none)")
       ->type_name("FILE");
   app.allow_config_extras(CLI::config_extras_mode::error);
-  app.set_version_flag("--version", fmt::format("gltf-radiosity {}", version()), "Print the version and exit");
-  app.set_help_flag("-h,--help", "Print this text and exit")->group("Other");
+  add_version_and_help(app);
 }
 
 // ---- the whole ----
@@ -243,44 +166,17 @@ void finish(Parser& parser) {
   if (parser.quality && parser.app.count("--max-patches") == 0) options.max_patches = parser.quality->max_patches;
 
   // The report must not replace the scene
-  const auto same = [](const std::string& a, const std::string& b) {
-    return std::filesystem::absolute(a).lexically_normal() == std::filesystem::absolute(b).lexically_normal();
-  };
   const CommandLine& line = parser.line;
   if (line.input.empty() || line.output.empty()) throw CLI::ValidationError("IN and OUT must not be empty");
-  if (!line.json.empty() && line.json != "-" && (same(line.json, line.input) || same(line.json, line.output))) {
-    throw CLI::ValidationError("--json", "the report must be another file than IN and OUT");
-  }
+  if (line.json != "-") check_that_differs("--json", line.json, std::array{line.input, line.output});
 }
-
-/// CLI11 says the same of unknown options and of lines that are no TOML, and calls both INI.
-std::string config_mistake(std::string text) {
-  constexpr std::string_view kUnknown = "INI was not able to parse ";
-  if (text.starts_with(kUnknown)) text = "no such option: " + text.substr(kUnknown.size());
-  return text;
-}
-
-Ending usage_error(const std::string& text) { return {kExitUsage, text + " (--help explains)"}; }
 
 }  // namespace
 
 std::variant<CommandLine, Ending> parse_command_line(std::span<const char* const> arguments) {
   Parser parser;
-  try {
-    parser.app.parse(static_cast<int>(arguments.size()), arguments.data());
-    finish(parser);
-    return parser.line;
-  } catch (const CLI::CallForHelp&) {
-    return Ending{kExitDone, parser.app.help()};
-  } catch (const CLI::CallForVersion& version_text) {
-    return Ending{kExitDone, std::string(version_text.what()) + "\n"};
-  } catch (const CLI::ConfigError& mistake) {
-    return usage_error("--config: " + config_mistake(mistake.what()));
-  } catch (const CLI::FileError& mistake) {
-    return usage_error(std::string("--config: ") + mistake.what());
-  } catch (const CLI::Error& mistake) {
-    return usage_error(mistake.what());
-  }
+  if (auto ending = parse_with(parser.app, arguments, [&parser] { finish(parser); })) return std::move(*ending);
+  return std::move(parser.line);
 }
 
 std::string help_text() { return Parser().app.help(); }

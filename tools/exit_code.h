@@ -1,4 +1,5 @@
-// What the shell learns about a bake. Scripts depend on these numbers: docs/command-line.md promises them.
+// What the shell learns about a bake or its verification. Scripts depend on these numbers: docs/command-line.md
+// promises them.
 #pragma once
 
 #include <csignal>
@@ -12,7 +13,8 @@ inline constexpr int kExitBadInput = 1;
 inline constexpr int kExitUsage = 2;
 inline constexpr int kExitCannotWrite = 3;
 inline constexpr int kExitLimit = 4;
-inline constexpr int kExitInternal = 70;  ///< EX_SOFTWARE of sysexits.h
+inline constexpr int kExitTooInexact = 5;  ///< verified, but worse than --max-error
+inline constexpr int kExitInternal = 70;   ///< EX_SOFTWARE of sysexits.h
 
 /// `signal` is the one that interrupted the bake, or 0: shells expect 128 plus its number.
 constexpr int exit_code_of(ErrorCode code, int signal) {

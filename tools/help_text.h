@@ -21,8 +21,27 @@ inline constexpr std::string_view kHelpFooter =
     "  gltf-radiosity hall.glb baked.glb --patch-size 0.25 --subdivide Floor=2 --exposure 0.5 --json -\n"
     "      Edges of at most 25 cm, the node Floor cut twice, a fixed exposure, the report on stdout\n"
     "\n"
+    "How good is a bake? gltf-radiosity verify IN OUT says it: see gltf-radiosity verify --help.\n"
+    "To bake a file that is called verify, write ./verify.\n"
+    "\n"
     "Exit codes: 0 done; 1 bad input; 2 wrong usage; 3 cannot write; 4 limit reached; 70 a bug of ours;\n"
     "130 and 143 interrupted. The output appears whole or not at all.";
+
+inline constexpr std::string_view kVerifyDescription =
+    "Says how far a baked file OUT is from the truth: a path tracer computes the light of IN at random\n"
+    "places of OUT's surfaces. IN, and the options under Light, must be those of the bake.";
+
+inline constexpr std::string_view kVerifyFooter =
+    "Examples:\n"
+    "  gltf-radiosity verify room.glb baked.glb\n"
+    "      The error in a few numbers\n"
+    "  gltf-radiosity verify room.glb baked.glb --image error.png --eye 1,1.7,4 --at 0,1,0\n"
+    "      And a picture of where it is, seen from a place in the room\n"
+    "  gltf-radiosity verify house.gltf baked.glb --sky 1,1,1 --max-error 0.03 --json -\n"
+    "      For an asset pipeline: fails with 5 if the relative RMSE is above 3 %\n"
+    "\n"
+    "Exit codes: 0 done; 1 bad input; 2 wrong usage; 3 cannot write; 4 limit reached; 5 worse than\n"
+    "--max-error; 70 a bug of ours; 130 and 143 interrupted.";
 
 /// Two columns, 100 characters wide: names and types, then the description ending in the default.
 class HelpFormatter : public CLI::Formatter {

@@ -1,4 +1,4 @@
-// START HERE, the command line: parse -> bake -> report. The only code that prints and exits.
+// START HERE, the command line: parse -> bake or verify -> report. The only code that prints and exits.
 #include <chrono>
 #include <cstdio>
 #include <exception>
@@ -9,19 +9,21 @@
 #include <variant>
 
 #include "plugin/gltf_radiosity.h"
+#include "plugin/verify.h"
 #include "tools/command_line.h"
 #include "tools/exit_code.h"
 #include "tools/interrupt.h"
 #include "tools/messages.h"
 #include "tools/progress_bar.h"
 #include "tools/report_file.h"
+#include "tools/verify_command.h"
 
 namespace gltf_radiosity::tools {
 namespace {
 
 void print(std::FILE* stream, std::string_view text) { std::fwrite(text.data(), 1, text.size(), stream); }
 
-int end_without_bake(const Ending& ending) {
+int end_at_once(const Ending& ending) {
   if (ending.exit_code != kExitDone) {
     print(stderr, error_line(ending.text));
     return ending.exit_code;
@@ -31,42 +33,76 @@ int end_without_bake(const Ending& ending) {
 }
 
 /// Writes the report if one was asked for; answers `exit_code`, or that the report could not be written.
-int report_to_programs(const CommandLine& line, std::string_view json, int exit_code) {
-  if (line.json.empty()) return exit_code;
-  const std::optional<std::string> failure = write_report(line.json, json);
+int report_to_programs(const std::string& file, std::string_view json, int exit_code) {
+  if (file.empty()) return exit_code;
+  const std::optional<std::string> failure = write_report(file, json);
   if (!failure) return exit_code;
   print(stderr, error_line(*failure));
   return exit_code == kExitDone ? kExitCannotWrite : exit_code;
+}
+
+/// `progress` must outlive them.
+Callbacks callbacks_of(ProgressBar& progress) {
+  Callbacks callbacks;
+  callbacks.progress = [&progress](std::string_view phase, double done) { progress.update(phase, done); };
+  callbacks.cancelled = [] { return interrupted_by() != 0; };
+  return callbacks;
 }
 
 int bake_as_asked(const CommandLine& line) {
   // Bake, with a display that is gone before anything else is printed
   const auto start = std::chrono::steady_clock::now();
   ProgressBar progress(resolve(line.progress), standard_error());
-  Callbacks callbacks;
-  callbacks.progress = [&progress](std::string_view phase, double done) { progress.update(phase, done); };
-  callbacks.cancelled = [] { return interrupted_by() != 0; };
-  const Result<Report> result = bake_file(line.input, line.output, line.options, callbacks);
+  const Result<Report> result = bake_file(line.input, line.output, line.options, callbacks_of(progress));
 
   // What went wrong
   if (!result) {
     progress.abandon();
     print(stderr, error_line(result.error().text()));
-    return report_to_programs(line, to_json(result.error()), exit_code_of(result.error().code, interrupted_by()));
+    return report_to_programs(line.json, to_json(result.error()), exit_code_of(result.error().code, interrupted_by()));
   }
 
   // What was done
   progress.finish();
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   for (const Warning& warning : result->warnings) print(stderr, warning_line(warning));
-  const int exit_code = report_to_programs(line, to_json(*result), kExitDone);
+  const int exit_code = report_to_programs(line.json, to_json(*result), kExitDone);
   if (line.progress != ProgressStyle::kNone) print(stderr, summary_line(line.output, *result, elapsed.count()));
   return exit_code;
 }
 
+int verify_as_asked(const VerifyCommand& command) {
+  // Verify
+  ProgressBar progress(resolve(command.progress), standard_error());
+  const Result<VerifyReport> result =
+      verify_files(command.input, command.output, command.options, callbacks_of(progress));
+  if (!result) {
+    progress.abandon();
+    print(stderr, error_line(result.error().text()));
+    return report_to_programs(command.json, to_json(result.error()),
+                              exit_code_of(result.error().code, interrupted_by()));
+  }
+
+  // The result, and whether it is good enough
+  progress.finish();
+  for (const Warning& warning : result->warnings) print(stderr, warning_line(warning));
+  if (command.json != "-") print(stdout, verified_lines(*result));
+  const int exit_code = report_to_programs(command.json, to_json(*result), kExitDone);
+  if (exit_code != kExitDone || std::fflush(stdout) != 0) return kExitCannotWrite;
+  if (!command.max_error || result->relative_rmse <= *command.max_error) return kExitDone;
+  print(stderr, too_inexact_line(*result, *command.max_error));
+  return kExitTooInexact;
+}
+
 int run(std::span<const char* const> arguments) {
+  if (is_verify_command(arguments)) {
+    const auto parsed = parse_verify_command(arguments);
+    if (const Ending* const ending = std::get_if<Ending>(&parsed)) return end_at_once(*ending);
+    catch_interrupts();
+    return verify_as_asked(std::get<VerifyCommand>(parsed));
+  }
   const auto parsed = parse_command_line(arguments);
-  if (const Ending* const ending = std::get_if<Ending>(&parsed)) return end_without_bake(*ending);
+  if (const Ending* const ending = std::get_if<Ending>(&parsed)) return end_at_once(*ending);
   catch_interrupts();
   return bake_as_asked(std::get<CommandLine>(parsed));
 }

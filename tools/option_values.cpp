@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <system_error>
@@ -33,6 +34,13 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   }
 }
 
+/// Whether all of `text` has the form of a number, usable or not.
+bool looks_like_a_number(std::string_view text) {
+  double number = 0.0;
+  const char* const end = text.data() + text.size();
+  return text.empty() || std::from_chars(text.data(), end, number).ptr == end;
+}
+
 }  // namespace
 
 double parse_number(std::string_view text, const Range& range) {
@@ -62,6 +70,18 @@ std::array<double, 3> parse_triple(std::string_view text, const std::array<Range
   const std::vector<std::string_view> parts = split(text, ',');
   if (parts.size() != 3) throw BadValue(fmt::format("'{}' is not three numbers separated by commas", text));
   return {parse_number(parts[0], ranges[0]), parse_number(parts[1], ranges[1]), parse_number(parts[2], ranges[2])};
+}
+
+std::variant<std::array<double, 3>, std::string> parse_sky(std::string_view text) {
+  const std::vector<std::string_view> parts = split(text, ',');
+  if (!std::all_of(parts.begin(), parts.end(), looks_like_a_number)) return std::string(text);
+  return parse_triple(text, {Range{}, Range{}, Range{}});
+}
+
+std::pair<int, int> parse_size(std::string_view text, int least, int most) {
+  const std::vector<std::string_view> parts = split(text, ',');
+  if (parts.size() != 2) throw BadValue(fmt::format("'{}' is not two numbers separated by a comma", text));
+  return {parse_integer(parts[0], least, most), parse_integer(parts[1], least, most)};
 }
 
 std::pair<std::string, int> parse_subdivide(std::string_view text) {

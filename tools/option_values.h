@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include "plugin/gltf_radiosity.h"
 
@@ -36,6 +37,12 @@ int parse_integer(std::string_view text, int least, int most);
 
 /// Three numbers separated by commas, each in its own range.
 std::array<double, 3> parse_triple(std::string_view text, const std::array<Range, 3>& ranges);
+
+/// Three numbers that are not negative, or the name of a file: whatever is not numbers separated by commas.
+std::variant<std::array<double, 3>, std::string> parse_sky(std::string_view text);
+
+/// W,H: two whole numbers in [least, most].
+std::pair<int, int> parse_size(std::string_view text, int least, int most);
 
 /// NAME=LEVEL, cut at the last equals sign because names may hold one; LEVEL in [0, 8].
 std::pair<std::string, int> parse_subdivide(std::string_view text);

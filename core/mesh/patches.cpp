@@ -198,7 +198,7 @@ void set_lamps_apart(const Scene& scene, Patches& patches, Sums& sums) {
     const Barycentrics middle = middle_of(e.part);
     all += double{e.flux};
     if (k < kMaxLamps) {
-      EmissiveTile lamp{{}, e.luminance, surface.two_sided, patches.patch_at(e.triangle, middle, false)};
+      EmissiveTile lamp{{}, e.luminance, surface.two_sided};
       for (int c = 0; c < 3; ++c) lamp.corner[c] = point_at(scene, e.triangle, e.part.corner[c]);
       patches.lamps.push_back(lamp);
       continue;
@@ -209,8 +209,6 @@ void set_lamps_apart(const Scene& scene, Patches& patches, Sums& sums) {
     });
   }
   patches.glow_share = all > 0.0 ? glowing / all : 0.0;
-  std::stable_sort(patches.lamps.begin(), patches.lamps.end(),
-                   [](const EmissiveTile& a, const EmissiveTile& b) { return a.patch < b.patch; });
 }
 
 /// Sets what patches are made of: means over their tiles.

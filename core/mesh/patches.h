@@ -30,7 +30,6 @@ struct EmissiveTile {
   glm::vec3 corner[3];  ///< metres, counter-clockwise seen from the front
   Rgb luminance{0.0F};  ///< mean over the tile, cd/m2
   bool two_sided = false;
-  std::uint32_t patch = kNothing;  ///< of its front
 };
 
 struct PatchOptions {
@@ -52,7 +51,7 @@ struct Patches {
   std::vector<SurfacePoint> points;  ///< [patch_count() * points_per_patch]
   int points_per_patch = 0;
 
-  /// What emits, as far as it is worth shadow rays: the parts with most flux, at most kMaxLamps, ordered by patch.
+  /// What emits, as far as it is worth shadow rays: the parts with most flux, at most kMaxLamps, brightest first.
   /// Patches keep the emission of the rest as `glow`, which hemicubes see.
   std::vector<EmissiveTile> lamps;
   double glow_share = 0.0;  ///< how much of the emitted flux is left to `glow`, [0,1]

@@ -10,6 +10,7 @@
 
 #include "core/mesh/patches.h"
 #include "core/transport/direct_light.h"
+#include "core/transport/sky_parts.h"
 #include "core/visibility/hemicube.h"
 #include "core/visibility/item_buffer.h"
 
@@ -31,6 +32,7 @@ struct Gatherer {
   const Hemicube& hemicube;
   const ItemBufferMaker& items;
   const DirectLight& direct;
+  const SmoothSky& sky;
   std::span<const Rgb> radiosity;  ///< solved, [patch_count], lm/m2
   float offset;                    ///< metres that a hemicube stands off its surface, surface_offset()
 

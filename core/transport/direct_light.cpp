@@ -38,6 +38,7 @@ float spot_falloff(const Light& light, const glm::vec3& to_light) {
 /// Working memory of one thread, reused from point to point.
 struct Scratch {
   LampWeights weights;
+  std::vector<double> sky_weights;
   std::vector<ShadowRay> rays;
   std::vector<Rgb> irradiance;  // what each ray brings if it is free, times the number of rays
   std::vector<std::uint8_t> blocked;
@@ -62,16 +63,37 @@ struct Scratch {
   }
 };
 
+/// Mean over `ray_count` evenly spaced rays of what reaches the point; `add_ray(r)` adds the ray of step r. Probes
+/// first, starting at any of the first few steps: always at step 0 they would favour the lamps that come first. Where
+/// they disagree lies a penumbra: send the rest.
+template <typename AddRay>
+Rgb trace_as_needed(const RayScene& scene, const DirectLightOptions& options, float start, Scratch& scratch,
+                    const AddRay& add_ray) {
+  const int stride = std::max(1, options.lamp_rays / options.probe_rays);
+  const int first_probe = static_cast<int>(start * static_cast<float>(stride));
+  for (int r = first_probe; r < options.lamp_rays; r += stride) add_ray(r);
+  scratch.trace(scene);
+  const auto blocked_count = std::count(scratch.blocked.begin(), scratch.blocked.end(), std::uint8_t{1});
+  if (blocked_count != 0 && blocked_count != std::ssize(scratch.blocked)) {
+    for (int r = 0; r < options.lamp_rays; ++r) {
+      if (r % stride != first_probe) add_ray(r);
+    }
+    scratch.trace(scene);
+  }
+  return scratch.sum_of_free() / static_cast<float>(scratch.rays.size());
+}
+
 }  // namespace
 
 DirectLight::DirectLight(const RayScene& rays, const Patches& patches, const DirectLightOptions& options)
     : rays_(rays),
       lamps_(patches.lamps, surface_offset(rays.scene())),
+      bright_sky_(rays.scene().sky),
       options_(options),
       offset_(surface_offset(rays.scene())) {}
 
 Rgb DirectLight::at(const SurfacePoint& point, std::uint32_t index) const {
-  return from_lamps(point, index) + from_lights(point, index);
+  return from_lamps(point, index) + from_lights(point, index) + from_sky(point, index);
 }
 
 Rgb DirectLight::from_lamps(const SurfacePoint& point, std::uint32_t index) const {
@@ -97,20 +119,26 @@ Rgb DirectLight::from_lamps(const SurfacePoint& point, std::uint32_t index) cons
     scratch.irradiance.push_back(chosen.irradiance);
   };
 
-  // Probes first, starting at any of the first few steps: always at step 0 they would favour the lamps that come first.
-  // Where they disagree lies a penumbra: send the rest.
-  const int stride = std::max(1, options_.lamp_rays / options_.probe_rays);
-  const int first_probe = static_cast<int>(shift(index, 5) * static_cast<float>(stride));
-  for (int r = first_probe; r < options_.lamp_rays; r += stride) add_ray(r);
-  scratch.trace(rays_);
-  const auto blocked_count = std::count(scratch.blocked.begin(), scratch.blocked.end(), std::uint8_t{1});
-  if (blocked_count != 0 && blocked_count != std::ssize(scratch.blocked)) {
-    for (int r = 0; r < options_.lamp_rays; ++r) {
-      if (r % stride != first_probe) add_ray(r);
-    }
-    scratch.trace(rays_);
-  }
-  return scratch.sum_of_free() / static_cast<float>(scratch.rays.size());
+  return trace_as_needed(rays_, options_, shift(index, 5), scratch, add_ray);
+}
+
+Rgb DirectLight::from_sky(const SurfacePoint& point, std::uint32_t index) const {
+  if (bright_sky_.empty()) return Rgb(0.0F);
+  thread_local Scratch scratch;
+  scratch.clear();
+  if (!(bright_sky_.weigh(point.normal, scratch.sky_weights) > 0.0)) return Rgb(0.0F);
+  const glm::vec3 from = point.position + offset_ * point.normal;
+  const glm::vec3 start(shift(index, 6), shift(index, 7), shift(index, 8));
+  const auto add_ray = [&](int r) {
+    const auto step = static_cast<float>(r);
+    const double along = (r + double{start.x}) / options_.lamp_rays;
+    const glm::vec2 place = glm::fract(glm::vec2(start.y, start.z) + step * glm::vec2(0.75487767F, 0.56984029F));
+    const ChosenDirection chosen = bright_sky_.choose(scratch.sky_weights, along, place);
+    scratch.rays.push_back(
+        {from, chosen.direction, std::numeric_limits<float>::infinity(), glm::fract(start.x + step * 0.61803399F)});
+    scratch.irradiance.push_back(chosen.irradiance);
+  };
+  return trace_as_needed(rays_, options_, shift(index, 9), scratch, add_ray);
 }
 
 Rgb DirectLight::from_lights(const SurfacePoint& point, std::uint32_t index) const {

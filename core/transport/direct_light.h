@@ -1,9 +1,9 @@
-// Direct light at a point: from lamps (emissive tiles) and punctual lights, with shadow rays.
+// Direct light at a point: from lamps (emissive tiles), punctual lights and the bright part of the sky, by shadow rays.
 //
 // Shadow rays are exact where a hemicube is not: a small lamp covers few cells. What a lamp would bring unoccluded has
 // a closed form (lamps.h), so rays decide visibility only. They go to places evenly spaced along the sum of what the
-// lamps would bring (systematic sampling). Sky and the dim remainder of the emission are left to the hemicube
-// (reconstruct/gather.h).
+// lamps would bring (systematic sampling). The smooth part of the sky (sky_parts.h) and the dim remainder of the
+// emission are left to the hemicube (reconstruct/gather.h).
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,14 @@
 
 #include "core/mesh/patches.h"
 #include "core/transport/lamps.h"
+#include "core/transport/sky_parts.h"
 #include "core/visibility/occlusion.h"
 #include "core/visibility/ray_scene.h"
 
 namespace radiosity {
 
 struct DirectLightOptions {
-  int lamp_rays = 128;  ///< shadow rays to all lamps together where some are hidden
+  int lamp_rays = 128;  ///< shadow rays to all lamps together where some are hidden, and as many to a bright sky
   int probe_rays = 32;  ///< how many of these, spread evenly, are sent first: if all agree, the rest are not sent
 };
 
@@ -33,9 +34,11 @@ class DirectLight {
  private:
   Rgb from_lamps(const SurfacePoint& point, std::uint32_t index) const;
   Rgb from_lights(const SurfacePoint& point, std::uint32_t index) const;
+  Rgb from_sky(const SurfacePoint& point, std::uint32_t index) const;
 
   const RayScene& rays_;
   Lamps lamps_;
+  BrightSky bright_sky_;
   DirectLightOptions options_;
   float offset_;  // m, ends of shadow rays are this far off their surfaces
 };

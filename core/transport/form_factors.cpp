@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/transport/sky_light.h"
+
 namespace radiosity {
 namespace {
 
@@ -16,8 +18,9 @@ struct Accumulator {
 
 class HemicubeRows final : public RowSource {
  public:
-  HemicubeRows(const Patches& patches, const Hemicube& hemicube, const ItemBufferMaker& items, float surface_offset)
-      : patches_(patches), hemicube_(hemicube), items_(items), offset_(surface_offset) {}
+  HemicubeRows(const Patches& patches, const Hemicube& hemicube, const ItemBufferMaker& items, const SmoothSky& sky,
+               float surface_offset)
+      : patches_(patches), hemicube_(hemicube), items_(items), sky_(sky), offset_(surface_offset) {}
 
   std::uint32_t patch_count() const override { return patches_.patch_count(); }
 
@@ -31,8 +34,10 @@ class HemicubeRows final : public RowSource {
     const float weight = 1.0F / static_cast<float>(points.size());
     for (std::size_t k = 0; k < points.size(); ++k) {
       const auto twist = low_discrepancy_twist(static_cast<std::uint32_t>(patch * points.size() + k));
-      items_.fill(hemicube_, {points[k].position + offset_ * points[k].normal, points[k].normal, twist}, sums.items);
+      const Viewpoint viewpoint{points[k].position + offset_ * points[k].normal, points[k].normal, twist};
+      items_.fill(hemicube_, viewpoint, sums.items);
       add(weight, sums, row);
+      if (!sky_.is_constant()) row.sky += weight * luminance_of_sky(sky_, hemicube_, viewpoint, sums.items);
     }
 
     // Dense to sparse, in ascending order so that sums do not depend on what was seen first.
@@ -70,14 +75,16 @@ class HemicubeRows final : public RowSource {
   const Patches& patches_;
   const Hemicube& hemicube_;
   const ItemBufferMaker& items_;
+  const SmoothSky& sky_;
   float offset_;
 };
 
 }  // namespace
 
 std::unique_ptr<RowSource> make_hemicube_rows(const Patches& patches, const Hemicube& hemicube,
-                                              const ItemBufferMaker& items, float surface_offset) {
-  return std::make_unique<HemicubeRows>(patches, hemicube, items, surface_offset);
+                                              const ItemBufferMaker& items, const SmoothSky& sky,
+                                              float surface_offset) {
+  return std::make_unique<HemicubeRows>(patches, hemicube, items, sky, surface_offset);
 }
 
 void RowCache::fetch(std::span<const std::uint32_t> patches) {

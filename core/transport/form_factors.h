@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/mesh/patches.h"
+#include "core/transport/sky_parts.h"
 #include "core/visibility/hemicube.h"
 #include "core/visibility/item_buffer.h"
 
@@ -28,6 +29,7 @@ struct FormFactorRow {
   std::vector<float> factor;         ///< F_ij, > 0
   float to_sky = 0.0F;               ///< share that meets nothing
   float to_backs = 0.0F;             ///< share that ends on backs which send no light
+  Rgb sky{0.0F};                     ///< sum of what a sky with a map shows, times the factors of its cells, cd/m2
 
   std::size_t bytes() const { return patch.size() * (sizeof(std::uint32_t) + sizeof(float)) + sizeof(*this); }
 };
@@ -42,7 +44,7 @@ class RowSource {
 
 /// Rows by hemicubes at the points of each patch. All arguments must outlive it.
 std::unique_ptr<RowSource> make_hemicube_rows(const Patches& patches, const Hemicube& hemicube,
-                                              const ItemBufferMaker& items, float surface_offset);
+                                              const ItemBufferMaker& items, const SmoothSky& sky, float surface_offset);
 
 /// Rows kept within a memory bound: what was used longest ago is evicted and computed again when needed.
 ///

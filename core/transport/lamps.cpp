@@ -92,37 +92,55 @@ float triangle_irradiance(const glm::vec3 corner[3], const SurfacePoint& at) {
 }
 
 Lamps::Lamps(std::span<const EmissiveTile> tiles, float surface_offset)
-    : tiles_(tiles), surface_offset_(surface_offset) {
-  // Reach of each lamp.
-  reach2_.reserve(tiles.size());
-  for (const EmissiveTile& lamp : tiles) {
+    : tiles_(tiles.begin(), tiles.end()), surface_offset_(surface_offset) {
+  if (!tiles_.empty()) build(0, static_cast<std::uint32_t>(tiles_.size()));
+
+  // Reach of each lamp, and the running flux.
+  reach2_.reserve(tiles_.size());
+  flux_until_.assign(1, 0.0);
+  for (const EmissiveTile& lamp : tiles_) {
     float longest = 0.0F;
     for (int k = 0; k < 3; ++k) longest = std::max(longest, glm::distance(lamp.corner[k], lamp.corner[(k + 1) % 3]));
     reach2_.push_back(kPointLike * kPointLike * longest * longest);
-  }
-
-  // One group per patch, and the running flux within each.
-  flux_until_.resize(tiles.size());
-  for (std::uint32_t first = 0; first < tiles.size();) {
-    std::uint32_t last = first;
-    double flux = 0.0;
-    for (; last < tiles.size() && tiles[last].patch == tiles[first].patch; ++last) {
-      flux += flux_of(tiles[last]);
-      flux_until_[last] = flux;
-    }
-    groups_.push_back(make_group(first, last - first));
-    first = last;
+    flux_until_.push_back(flux_until_.back() + flux_of(lamp));
   }
 }
 
-Lamps::Group Lamps::make_group(std::uint32_t first, std::uint32_t count) const {
+std::uint32_t Lamps::build(std::uint32_t first, std::uint32_t count) {
+  const auto group = static_cast<std::uint32_t>(groups_.size());
+  groups_.push_back(describe(first, count));
+  if (count == 1) return group;
+
+  // Halves along the longest axis of the middles.
+  const auto begin = tiles_.begin() + first, end = begin + count;
+  glm::vec3 low = middle_of(*begin), high = low;
+  for (auto lamp = begin; lamp != end; ++lamp) {
+    low = glm::min(low, middle_of(*lamp));
+    high = glm::max(high, middle_of(*lamp));
+  }
+  const glm::vec3 extent = high - low;
+  const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+  std::stable_sort(begin, end, [axis](const EmissiveTile& a, const EmissiveTile& b) {
+    return middle_of(a)[axis] < middle_of(b)[axis];
+  });
+  const std::uint32_t half = count / 2;
+  build(first, half);
+  const std::uint32_t second = build(first + half, count - half);
+  groups_[group].second_child = second;
+  return group;
+}
+
+Lamps::Group Lamps::describe(std::uint32_t first, std::uint32_t count) const {
+  Group group{.first = first, .count = count};
   glm::dvec3 middle(0.0), facing(0.0);
   for (std::uint32_t k = first; k < first + count; ++k) {
     middle += flux_of(tiles_[k]) * glm::dvec3(middle_of(tiles_[k]));
     facing += double{luminance_of(tiles_[k].luminance)} * glm::dvec3(scaled_normal(tiles_[k]));
+    group.flux += flux_of(tiles_[k]);
+    group.two_sided = group.two_sided || tiles_[k].two_sided;
   }
-  const double flux = flux_until_[first + count - 1];
-  Group group{first, count, glm::vec3(middle / flux), 0.0F, glm::vec3(facing / flux), flux, tiles_[first].two_sided};
+  group.middle = glm::vec3(middle / group.flux);
+  group.facing = glm::vec3(facing / group.flux);
   for (std::uint32_t k = first; k < first + count; ++k) {
     for (const glm::vec3& corner : tiles_[k].corner) {
       group.radius = std::max(group.radius, glm::distance(group.middle, corner));
@@ -162,15 +180,25 @@ void Lamps::weigh(const SurfacePoint& point, LampWeights& weights) const {
     weights.total += weight;
     weights.entries.push_back({weights.total, first, count});
   };
-  for (const Group& group : groups_) {
+  // From the root down; a tree over 2^32 lamps halved each time is not deeper than the stack.
+  std::uint32_t open[64];
+  int open_count = 0;
+  if (!groups_.empty()) open[open_count++] = 0;
+  while (open_count > 0) {
+    const std::uint32_t index = open[--open_count];
+    const Group& group = groups_[index];
+    if (group.count == 1) {
+      const double luminance = double{luminance_of(tiles_[group.first].luminance)};
+      add(irradiance_of_lamp(group.first, point) * luminance, group.first, 1);
+      continue;
+    }
     const glm::vec3 apart = group.middle - point.position;
-    if (group.count > 1 && glm::dot(apart, apart) > kFar * kFar * group.radius * group.radius) {
+    if (glm::dot(apart, apart) > kFar * kFar * group.radius * group.radius) {
       add(weight_of_far_group(group, point), group.first, group.count);
       continue;
     }
-    for (std::uint32_t k = group.first; k < group.first + group.count; ++k) {
-      add(irradiance_of_lamp(k, point) * double{luminance_of(tiles_[k].luminance)}, k, 1);
-    }
+    open[open_count++] = group.second_child;
+    open[open_count++] = index + 1;
   }
 }
 
@@ -188,10 +216,11 @@ ChosenLamp Lamps::choose(const SurfacePoint& point, const LampWeights& weights, 
   }
 
   // Within a group, what is left of the place picks a lamp by flux.
-  const auto first = flux_until_.begin() + entry->first, last = first + entry->count;
-  const double flux = *(last - 1);
-  const auto found = std::min(std::lower_bound(first, last, (place - before) / weight * flux), last - 1);
-  const auto lamp = static_cast<std::uint32_t>(found - flux_until_.begin());
+  const auto first = flux_until_.begin() + entry->first + 1, last = first + entry->count;
+  const double flux = *(last - 1) - *(first - 1);
+  const double wanted = *(first - 1) + (place - before) / weight * flux;
+  const auto found = std::min(std::lower_bound(first, last, wanted), last - 1);
+  const auto lamp = static_cast<std::uint32_t>(found - flux_until_.begin()) - 1;
   const double odds = weight / weights.total * flux_of(tiles_[lamp]) / flux;
   return {lamp, tiles_[lamp].luminance * static_cast<float>(irradiance_of_lamp(lamp, point) / odds)};
 }

@@ -1,11 +1,12 @@
 // What each lamp would bring to a point if nothing were in between, and which lamps are worth a shadow ray.
 //
-// The lamps of one patch form a group. A point far from a group weighs it as a whole by an estimate; near groups are
-// opened and their lamps weighed by the closed form. Rays are then dealt out in proportion to weight, and what a ray
-// brings is always the exact light of the lamp it went to over the odds of having chosen it: the estimates cost
-// accuracy nowhere, and thousands of lamps cost a point no more than their patches.
+// Lamps form a tree of groups, neighbours together. A point weighs what is far as a whole by an estimate; what is near
+// is opened, down to single lamps that are weighed by the closed form. Rays are then dealt out in proportion to weight,
+// and what a ray brings is always the exact light of the lamp it went to over the odds of having chosen it: the
+// estimates bias nothing, and a point pays for thousands of lamps with the logarithm of their number.
 //
-// Irradiance from a polygon: Lambert 1760, as in Baum, Rushmeier and Winget 1989.
+// Irradiance from a polygon: Lambert 1760, as in Baum, Rushmeier and Winget 1989. Trees of lights: Walter, Fernandez,
+// Arbree, Bala, Donikian and Greenberg. Lightcuts: A Scalable Approach to Illumination. 2005
 #pragma once
 
 #include <cstddef>
@@ -42,8 +43,7 @@ struct LampWeights {
 /// Immutable; may be shared between threads.
 class Lamps {
  public:
-  /// `tiles` are ordered by patch and must outlive this. A point within `surface_offset` (m) of a lamp's plane sees it
-  /// edge-on and gets nothing from it.
+  /// A point within `surface_offset` (m) of a lamp's plane sees it edge-on and gets nothing from it.
   Lamps(std::span<const EmissiveTile> tiles, float surface_offset);
 
   bool empty() const { return tiles_.empty(); }
@@ -54,23 +54,26 @@ class Lamps {
   ChosenLamp choose(const SurfacePoint& point, const LampWeights& weights, double along) const;
 
  private:
+  /// A node of the tree. Its lamps are neighbours in `tiles_`; the first child comes next in `groups_`.
   struct Group {
-    std::uint32_t first, count;
-    glm::vec3 middle;
-    float radius;      // m, of a sphere around the middle that holds all lamps
-    glm::vec3 facing;  // mean normal, weighted by flux: shorter than 1 where the group is curved
-    double flux;       // sum of area times eye-weighted luminance
-    bool two_sided;
+    std::uint32_t first = 0, count = 0;
+    std::uint32_t second_child = 0;
+    glm::vec3 middle{0.0F};  // m, weighted by flux
+    float radius = 0.0F;     // m, of a sphere around the middle that holds all lamps
+    glm::vec3 facing{0.0F};  // mean normal, weighted by flux: shorter than 1 where the group is curved
+    double flux = 0.0;       // sum of area times eye-weighted luminance
+    bool two_sided = false;
   };
 
-  Group make_group(std::uint32_t first, std::uint32_t count) const;
+  std::uint32_t build(std::uint32_t first, std::uint32_t count);
+  Group describe(std::uint32_t first, std::uint32_t count) const;
   double weight_of_far_group(const Group& group, const SurfacePoint& point) const;
   double irradiance_of_lamp(std::uint32_t lamp, const SurfacePoint& point) const;
 
-  std::span<const EmissiveTile> tiles_;
+  std::vector<EmissiveTile> tiles_;
   float surface_offset_;
-  std::vector<Group> groups_;
-  std::vector<double> flux_until_;  // per lamp: flux of its group's lamps up to and with it
+  std::vector<Group> groups_;       // the root first
+  std::vector<double> flux_until_;  // [lamp_count + 1]: flux of all lamps before
   std::vector<float> reach2_;       // per lamp: squared distance (m2) beyond which it counts as a point
 };
 

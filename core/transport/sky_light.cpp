@@ -7,8 +7,22 @@
 
 namespace radiosity {
 
-void add_sky(const Rgb& sky, RowCache& rows, std::vector<Rgb>& direct, const Progress& progress) {
-  if (!(luminance_of(sky) > 0.0F)) return;
+Rgb luminance_of_sky(const SmoothSky& sky, const Hemicube& hemicube, const Viewpoint& viewpoint,
+                     const ItemBuffer& items) {
+  const Frame axes = frame(viewpoint);
+  const std::span<const float> delta = hemicube.delta_form_factors();
+  const std::span<const glm::vec3> directions = hemicube.directions();
+  Rgb sum(0.0F);
+  for (std::size_t c = 0; c < delta.size(); ++c) {
+    if (items.triangle[c] != kNothing) continue;
+    const glm::vec3& d = directions[c];
+    sum += delta[c] * sky.luminance(d.x * axes.u + d.y * axes.v + d.z * axes.w);
+  }
+  return sum;
+}
+
+void add_sky(const SmoothSky& sky, RowCache& rows, std::vector<Rgb>& direct, const Progress& progress) {
+  if (sky.is_black()) return;
   std::vector<std::uint32_t> order(rows.patch_count());
   std::iota(order.begin(), order.end(), 0U);
   constexpr std::size_t kRowsAtOnce = 256;
@@ -17,7 +31,9 @@ void add_sky(const Rgb& sky, RowCache& rows, std::vector<Rgb>& direct, const Pro
     const std::size_t count = std::min(kRowsAtOnce, order.size() - first);
     rows.fetch(std::span(order).subspan(first, count));
     for (std::size_t i = first; i < first + count; ++i) {
-      direct[i] += irradiance_of_luminance(sky, rows.row(order[i]).to_sky);
+      const FormFactorRow& row = rows.row(order[i]);
+      direct[i] += sky.is_constant() ? irradiance_of_luminance(sky.constant(), row.to_sky)
+                                     : irradiance_of_luminance(row.sky, 1.0F);
     }
   }
 }

@@ -1,4 +1,4 @@
-// Light of the open sky on the patches, by the share of each one's view that meets nothing.
+// Light of the open sky by what hemicubes see of it. What is too bright and small for them comes with the direct light.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,12 @@
 
 namespace radiosity {
 
-/// Adds the irradiance (lx) from a sky of luminance `sky` (cd/m2) to `direct`, [patch_count]. Needs every row of F
-/// unless the sky is black. Throws `Cancelled`.
-void add_sky(const Rgb& sky, RowCache& rows, std::vector<Rgb>& direct, const Progress& progress);
+/// Sum of the delta form factors of the cells that meet nothing, times what the sky shows there, cd/m2.
+Rgb luminance_of_sky(const SmoothSky& sky, const Hemicube& hemicube, const Viewpoint& viewpoint,
+                     const ItemBuffer& items);
+
+/// Adds the irradiance (lx) that `sky` brings to the patches to `direct`, [patch_count]. Needs every row of F unless
+/// the sky is black. Throws `Cancelled`.
+void add_sky(const SmoothSky& sky, RowCache& rows, std::vector<Rgb>& direct, const Progress& progress);
 
 }  // namespace radiosity

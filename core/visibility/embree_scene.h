@@ -1,4 +1,5 @@
-// The inside of RayScene, for the files that trace: ray_scene, item_buffer_rays and occlusion. No other may include it.
+// The inside of RayScene, for the files that trace: ray_scene, item_buffer_rays, occlusion and single_ray. No other may
+// include it.
 #pragma once
 
 #include <embree3/rtcore.h>

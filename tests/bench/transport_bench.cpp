@@ -48,7 +48,8 @@ class PatchInTurn {
 
 void make_rows(benchmark::State& state, const Room& room, const ItemBufferMaker& items) {
   const Hemicube hemicube(static_cast<int>(state.range(3)));
-  const auto rows = make_hemicube_rows(room.patches, hemicube, items, surface_offset(room.scene));
+  const SmoothSky sky(room.scene.sky, hemicube.resolution());
+  const auto rows = make_hemicube_rows(room.patches, hemicube, items, sky, surface_offset(room.scene));
   PatchInTurn patch(rows->patch_count());
   for (auto _ : state) benchmark::DoNotOptimize(rows->row(patch.next()));
   state.SetItemsProcessed(state.iterations());
@@ -83,7 +84,8 @@ void solve(benchmark::State& state, const Solve& solver) {
   const Room room(10, 1, state.range(0));
   const Hemicube hemicube(16);
   const auto items = make_item_buffer_rays(room.rays);
-  const auto source = make_hemicube_rows(room.patches, hemicube, *items, surface_offset(room.scene));
+  const SmoothSky sky(room.scene.sky, hemicube.resolution());
+  const auto source = make_hemicube_rows(room.patches, hemicube, *items, sky, surface_offset(room.scene));
   RowCache rows(*source, std::numeric_limits<std::size_t>::max());
   std::vector<std::uint32_t> all(room.patches.patch_count());
   std::iota(all.begin(), all.end(), 0U);

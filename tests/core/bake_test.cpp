@@ -14,6 +14,7 @@
 
 #include "core/photometry.h"
 #include "tests/core/test_scenes.h"
+#include "tests/core/test_skies.h"
 
 namespace radiosity {
 namespace {
@@ -111,7 +112,7 @@ TEST(Bake, GivesTheSameBytesForAnyNumberOfThreads) {
     options.solver = solver;
     options.row_cache_bytes = 40'000;  // evictions included
     Scene scene = test::cornell_box();
-    scene.sky = {0.1F, 0.2F, 0.3F};
+    scene.sky.luminance = {0.1F, 0.2F, 0.3F};
     options.threads = 1;
     const Bake one = bake(scene, options, {});
     for (const int threads : {2, 7}) {
@@ -122,6 +123,35 @@ TEST(Bake, GivesTheSameBytesForAnyNumberOfThreads) {
       EXPECT_EQ(one.report.escaped_flux, many.report.escaped_flux);
     }
   }
+}
+
+/// Blue above, brown below, and a sun behind the open front of the Cornell box.
+Sky sky_with_a_sun() {
+  Sky sky = test::sky_of(
+      128, [](const glm::vec3& d) { return d.y > 0.0F ? Rgb(0.1F, 0.2F, 0.3F) : Rgb(0.06F, 0.05F, 0.04F); });
+  test::add_sun(sky, glm::normalize(glm::vec3(0.1F, 0.4F, -1.0F)), {5, 5, 4});
+  return sky;
+}
+
+TEST(Bake, GivesTheSameBytesUnderASkyWithAMapForAnyNumberOfThreads) {
+  BakeOptions options = quick(0.06F);
+  options.max_patches = 150;
+  Scene scene = test::cornell_box();
+  scene.sky = sky_with_a_sun();
+  options.threads = 1;
+  const Bake one = bake(scene, options, {});
+  for (const int threads : {2, 7}) {
+    options.threads = threads;
+    EXPECT_TRUE(same_bytes(one.irradiance, bake(scene, options, {}).irradiance)) << threads;
+  }
+}
+
+TEST(Bake, IsTheSameUnderAConstantMapAsUnderAConstantSky) {
+  Scene scene = test::cornell_box();
+  scene.sky.luminance = {0.1F, 0.2F, 0.3F};
+  const Bake constant = bake(scene, quick(0.08F), {});
+  scene.sky = test::sky_of(64, [](const glm::vec3&) { return Rgb(0.1F, 0.2F, 0.3F); });
+  EXPECT_LT(difference(constant, bake(scene, quick(0.08F), {})).rms, 1e-3);
 }
 
 TEST(Bake, IsNearlyTheSameForPermutedTriangles) {
@@ -153,7 +183,9 @@ TEST(Bake, IsLinearInTheLight) {
 
 TEST(Bake, BalancesFlux) {
   Scene under_sky = test::occluder();
-  under_sky.sky = Rgb(1.0F);
+  under_sky.sky.luminance = Rgb(1.0F);
+  Scene under_map = test::occluder();
+  under_map.sky = sky_with_a_sun();
   Scene punctual = test::cornell_box();
   punctual.surfaces[3].emission = Rgb(0.0F);
   punctual.lights = {{.kind = Light::Kind::kPoint, .position = {0.28F, 0.4F, 0.28F}}};
@@ -161,6 +193,7 @@ TEST(Bake, BalancesFlux) {
                                                {"cornell", test::cornell_box()},
                                                {"occluder", test::occluder()},
                                                {"occluder under a sky", under_sky},
+                                               {"occluder under a map", under_map},
                                                {"cornell by a point", punctual}};
   for (const auto& [name, scene] : scenes) {
     BakeOptions options = quick(0.5F);
@@ -244,7 +277,7 @@ TEST(Bake, LeaksNoLightThroughAClosedWall) {
 
 TEST(Bake, StopsInEveryPhaseWhenCancelled) {
   Scene scene = test::cornell_box();
-  scene.sky = Rgb(0.1F);
+  scene.sky.luminance = Rgb(0.1F);
   std::vector<std::string> phases;
   const Progress listen{.report =
                             [&](std::string_view phase, double done) {

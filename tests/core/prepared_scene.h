@@ -21,7 +21,8 @@ struct PreparedScene {
         patches(make_patches(rays, {.max_patches = max_patches}, {})),
         items(make_item_buffer_rays(rays)),
         hemicube(hemicube_resolution),
-        rows(make_hemicube_rows(patches, hemicube, *items, surface_offset(scene))),
+        sky(scene.sky, hemicube_resolution),
+        rows(make_hemicube_rows(patches, hemicube, *items, sky, surface_offset(scene))),
         direct(rays, patches, {}) {}
 
   Scene scene;
@@ -29,6 +30,7 @@ struct PreparedScene {
   Patches patches;
   std::unique_ptr<ItemBufferMaker> items;
   Hemicube hemicube;
+  SmoothSky sky;
   std::unique_ptr<RowSource> rows;
   DirectLight direct;
 };

@@ -132,7 +132,7 @@ TEST(Validate, RefusesLightsThatMakeNoSense) {
 
 TEST(Validate, RefusesANegativeSky) {
   Scene scene = valid_scene();
-  scene.sky = Rgb(0.0F, -1.0F, 0.0F);
+  scene.sky.luminance = Rgb(0.0F, -1.0F, 0.0F);
   EXPECT_THAT(fault_of(scene), HasSubstr("sky"));
 }
 

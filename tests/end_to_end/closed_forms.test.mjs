@@ -126,6 +126,32 @@ test('a court under a sky of 1 cd/m2 is darker in its corners, and nowhere brigh
   assert.ok(tops.some(({ color }) => Math.abs(color[0] - 0.7) < 0.01), 'the top of the wall sees all of the sky')
 })
 
+test('a floor under an image-based light shows what the faces of its cube map bring', () => {
+  const { floor } = vertices_of('image_based_light.glb')
+  // The middle of a cube sees its upper face with this form factor.
+  const above = (4 / Math.PI / Math.SQRT2) * Math.atan(1 / Math.SQRT2)
+  const expected = 0.25 * (2.5 * above + 1 - above)
+  for (const { position, color } of floor) assert_near(color[1], expected, 0.02 * expected, `vertex at ${position}`)
+})
+
+for (const turned of [0, 90, -45]) {
+  test(`a cube under sunny.hdr turned by ${turned} degrees shows sky and sun on each face`, () => {
+    const { cube } = vertices_of('unit_cube.glb', '--sky', test_asset('sunny.hdr'), '--sky-rotation', turned)
+    const radians = Math.PI / 180
+    const azimuth = (270 - (360 * 20.5) / 64 + turned) * radians
+    const elevation = (90 - (180 * 7.5) / 32) * radians
+    const level = Math.cos(elevation)
+    const towards = [level * Math.sin(azimuth), Math.sin(elevation), level * Math.cos(azimuth)]
+    const latitude = (row) => Math.sin((90 - (180 * row) / 32) * radians)
+    const lux = 512 * ((2 * Math.PI) / 64) * (latitude(7) - latitude(8))
+    for (const { normal, color } of cube) {
+      const cosine = normal.reduce((sum, n, k) => sum + n * towards[k], 0)
+      const irradiance = (Math.PI / 2) * (1 + normal[1]) + lux * Math.max(0, cosine)
+      assert_near(color[1], (0.5 * irradiance) / Math.PI, 0.015, `face ${normal}`)
+    }
+  })
+}
+
 test('a point light amid a room compressed by Draco lights the four corners of each wall alike', () => {
   const { box } = vertices_of('draco_box.glb')
   assert.equal(box.length, 24)

@@ -53,6 +53,26 @@ test('--sky and --sun light a scene, which then needs no default sky', () => {
   assert.ok(mean(reds_of(gltf)) > 0.1)
 })
 
+test('--sky replaces the sky of the file and says so; the file itself keeps it', () => {
+  const output = target('replaced.glb')
+  const report = bake(test_asset('image_based_light.glb'), output, '--sky', test_asset('sunny.hdr'))
+  assert.deepEqual(report.warnings.map(({ code }) => code), ['image-based-light-replaced'])
+  const input = read_gltf(test_asset('image_based_light.glb'))
+  assert.deepEqual(read_gltf(output).json.extensions, input.json.extensions)
+  assert.deepEqual(bake(test_asset('image_based_light.glb'), output).warnings, [])
+})
+
+test('a court under an HDR sky bakes to the same bytes with 1, 2 and 7 threads', () => {
+  const outputs = [1, 2, 7].map((threads) => {
+    const output = target('sunny.glb')
+    const options = ['--quality', 'draft', '--sky', test_asset('sunny.hdr'), '--threads', threads]
+    bake(test_asset('sky_court.glb'), output, ...options)
+    return fs.readFileSync(output)
+  })
+  assert.ok(outputs[1].equals(outputs[0]), '2 threads differ from 1')
+  assert.ok(outputs[2].equals(outputs[0]), '7 threads differ from 1')
+})
+
 test('--exposure scales the colours and is written into the file', () => {
   const colors = [0.25, 0.5].map((exposure) => {
     const output = target(`exposure_${exposure}.glb`)

@@ -32,10 +32,10 @@ function broken_yard(name, change) {
 }
 
 // Refused before the bake begins: nothing but the reason is printed.
-function assert_refused(input, place) {
+function assert_refused(input, place, ...options) {
   const output = path.join(folder, 'refused.glb')
   const before = fs.readdirSync(folder)
-  const { code, signal, stdout, lines, seconds } = run(input, output, '--progress', 'none')
+  const { code, signal, stdout, lines, seconds } = run(input, output, '--progress', 'none', ...options)
   assert.deepEqual({ code, signal }, { code: 1, signal: null }, lines.join('\n'))
   assert.equal(stdout, '')
   assert.equal(lines.length, 1, lines.join('\n'))
@@ -160,6 +160,23 @@ test('compressed data that Draco cannot read', () => {
   const binary = Buffer.from(buffers[0])
   binary.fill(0xff, 12)
   assert_refused(write('draco.glb', to_glb(json, binary)), /meshes\[0\]\.primitives\[0\]|bufferViews\[0\]/)
+})
+
+test('a sky that is not there, no HDR image, cut off, or too large', () => {
+  const sunny = fs.readFileSync(test_asset('sunny.hdr'))
+  const refuse = (sky, reason) => assert_refused(test_asset('unit_cube.glb'), reason, '--sky', sky)
+  refuse(path.join(folder, 'gone.hdr'), /gone\.hdr: the file does not exist/)
+  refuse(write('text.hdr', 'sky'), /text\.hdr: is not a Radiance HDR image/)
+  refuse(write('cut.hdr', sunny.subarray(0, 5000)), /cut\.hdr: the HDR image is broken/)
+  const huge = sunny.toString('latin1').replace('-Y 32 +X 64', '-Y 32 +X 20000')
+  refuse(write('huge.hdr', Buffer.from(huge, 'latin1')), /huge\.hdr: the HDR image is larger/)
+})
+
+test('an image-based light that names an image out of range', () => {
+  const { json, buffers } = read_gltf(test_asset('image_based_light.glb'))
+  json.extensions.EXT_lights_image_based.lights[0].specularImages[0][2] = 7
+  const file = write('light.glb', to_glb(json, Buffer.from(buffers[0])))
+  assert_refused(file, /extensions\.EXT_lights_image_based\.lights\[0\]/)
 })
 
 test('an output file that was there stays when the input is refused', () => {

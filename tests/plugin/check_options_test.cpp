@@ -40,6 +40,9 @@ TEST(CheckOptions, TheMeshHasASize) {
 
 TEST(CheckOptions, LightIsNotNegative) {
   EXPECT_EQ(refused([](Options& o) { o.sky = {1.0, -0.5, 1.0}; }), "--sky");
+  EXPECT_EQ(refused([](Options& o) { o.sky_file = "sky.hdr"; }), "");
+  EXPECT_EQ(refused([](Options& o) { o.sky = {1.0, 1.0, 1.0}, o.sky_file = "sky.hdr"; }), "--sky");
+  EXPECT_EQ(refused([](Options& o) { o.sky_rotation_degrees = kInfinity; }), "--sky-rotation");
   EXPECT_EQ(refused([](Options& o) { o.sun = Sun{91.0, 0.0, 1.0}; }), "--sun");
   EXPECT_EQ(refused([](Options& o) { o.sun = Sun{45.0, 0.0, -1.0}; }), "--sun");
   EXPECT_EQ(refused([](Options& o) { o.sun = Sun{45.0, 720.0, 1.0}; }), "");

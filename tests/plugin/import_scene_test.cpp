@@ -357,14 +357,14 @@ TEST(ImportScene, UnlitMaterialsOnlyBlock) {
 TEST(ImportScene, WithoutAnyLightTheSkyIsWhiteAndSaysSo) {
   GltfBuilder builder = square_with({{"name", "plain"}});
   Imported result = import(builder);
-  EXPECT_EQ(result.scene().sky, Rgb(1.0F));
+  EXPECT_EQ(result.scene().sky.luminance, Rgb(1.0F));
   EXPECT_TRUE(result.warned("default-sky"));
 
   builder.add_light({{"type", "point"}, {"intensity", 0.0}});
   EXPECT_TRUE(import(builder).warned("default-sky")) << "a light that is off does not count";
   builder.add_light({{"type", "point"}, {"intensity", 5.0}});
   result = import(builder);
-  EXPECT_EQ(result.scene().sky, Rgb(0.0F));
+  EXPECT_EQ(result.scene().sky.luminance, Rgb(0.0F));
   EXPECT_EQ(result.imported.punctual_light_count, 2U);
 }
 
@@ -372,15 +372,15 @@ TEST(ImportScene, OptionsSetSkyAndSun) {
   const GltfBuilder builder = square_with({{"name", "plain"}});
   Options options;
   options.default_sky = false;
-  EXPECT_EQ(import(builder, options).scene().sky, Rgb(0.0F));
+  EXPECT_EQ(import(builder, options).scene().sky.luminance, Rgb(0.0F));
   options.default_sky = true;
   options.sky = {0.1, 0.2, 0.3};
-  EXPECT_EQ(import(builder, options).scene().sky, Rgb(0.1F, 0.2F, 0.3F));
+  EXPECT_EQ(import(builder, options).scene().sky.luminance, Rgb(0.1F, 0.2F, 0.3F));
   options.sky.reset();
   options.sun = Sun{90.0, 0.0, 1000.0};
   const Imported result = import(builder, options);
   ASSERT_EQ(result.scene().lights.size(), 1U);
-  EXPECT_EQ(result.scene().sky, Rgb(0.0F));
+  EXPECT_EQ(result.scene().sky.luminance, Rgb(0.0F));
   EXPECT_EQ(result.imported.punctual_light_count, 0U);
   options.sky = {-1.0, 0.0, 0.0};
   EXPECT_EQ(verdict(builder, options), "sky: is negative or not finite");

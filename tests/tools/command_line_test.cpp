@@ -71,6 +71,8 @@ TEST(CommandLine, DefaultsAreThoseOfTheLibrary) {
   EXPECT_EQ(parsed.patch_size, library.patch_size);
   EXPECT_EQ(parsed.subdivide, library.subdivide);
   EXPECT_EQ(parsed.sky, library.sky);
+  EXPECT_EQ(parsed.sky_file, library.sky_file);
+  EXPECT_EQ(parsed.sky_rotation_degrees, library.sky_rotation_degrees);
   EXPECT_EQ(parsed.sun.has_value(), library.sun.has_value());
   EXPECT_EQ(parsed.default_sky, library.default_sky);
   EXPECT_EQ(parsed.metals, library.metals);
@@ -104,6 +106,13 @@ TEST(CommandLine, ReadsTheOptionsOfTheLight) {
   EXPECT_FALSE(options.default_sky);
   EXPECT_EQ(options.metals, Metals::kBlack);
   EXPECT_EQ(options.light_units, LightUnits::kBlender);
+}
+
+TEST(CommandLine, ASkyIsALuminanceOrAFile) {
+  const Options file = parse_bake({"--sky", "skies/noon.hdr", "--sky-rotation", "-30"}).options;
+  EXPECT_EQ(file.sky, std::nullopt);
+  EXPECT_EQ(file.sky_file, "skies/noon.hdr");
+  EXPECT_EQ(file.sky_rotation_degrees, -30.0);
 }
 
 TEST(CommandLine, ReadsTheOptionsOfTheTransport) {
@@ -160,13 +169,35 @@ TEST(CommandLine, TheLastOfRepeatedOptionsCounts) {
 
 TEST(CommandLine, EveryMistakeNamesTheOption) {
   const std::vector<Arguments> mistakes = {
-      {"--refine", "maybe"},  {"--patch-size", "-1"},      {"--patch-size", "nan"}, {"--subdivide", "A"},
-      {"--sky", "1,1"},       {"--sky", "1,1,-1"},         {"--sun", "40,0"},       {"--metals", ""},
-      {"--light-units", "x"}, {"--hemicube", "31"},        {"--hemicube", "32x"},   {"--visibility", "gpu"},
-      {"--solver", "magic"},  {"--residual", "0"},         {"--residual", "inf"},   {"--max-patches", "0"},
-      {"--threads", "-1"},    {"--exposure", "0"},         {"--exposure", "1e999"}, {"--ev100", "bright"},
-      {"--color-type", "u9"}, {"--quality", "ultra"},      {"--progress", "loud"},  {"--config", "no/such.toml"},
-      {"--json", "out.glb"},  {"--json", "./x/../in.glb"}, {"--hemicube"},          {"--no-such-option"},
+      {"--refine", "maybe"},
+      {"--patch-size", "-1"},
+      {"--patch-size", "nan"},
+      {"--subdivide", "A"},
+      {"--sky", "1,1"},
+      {"--sky-rotation", "x"},
+      {"--sky", "1,1,-1"},
+      {"--sun", "40,0"},
+      {"--metals", ""},
+      {"--light-units", "x"},
+      {"--hemicube", "31"},
+      {"--hemicube", "32x"},
+      {"--visibility", "gpu"},
+      {"--solver", "magic"},
+      {"--residual", "0"},
+      {"--residual", "inf"},
+      {"--max-patches", "0"},
+      {"--threads", "-1"},
+      {"--exposure", "0"},
+      {"--exposure", "1e999"},
+      {"--ev100", "bright"},
+      {"--color-type", "u9"},
+      {"--quality", "ultra"},
+      {"--progress", "loud"},
+      {"--config", "no/such.toml"},
+      {"--json", "out.glb"},
+      {"--json", "./x/../in.glb"},
+      {"--hemicube"},
+      {"--no-such-option"},
   };
   for (const Arguments& mistake : mistakes) {
     Arguments arguments = {"in.glb", "out.glb"};

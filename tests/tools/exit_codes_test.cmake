@@ -21,16 +21,24 @@ file(WRITE ${scene} "this is no glTF")
 expect(CODE 0 STDOUT "^Bakes .*Usage: gltf-radiosity IN OUT" STDERR "^$" ARGUMENTS --help)
 expect(CODE 0 STDOUT "^gltf-radiosity [0-9]+\\.[0-9]+\\.[0-9]+\n$" STDERR "^$" ARGUMENTS --version)
 
+expect(CODE 0 STDOUT "^Says .*Usage: gltf-radiosity verify IN OUT" STDERR "^$" ARGUMENTS verify --help)
+
 # Wrong usage: one line, and nothing on stdout.
 expect(CODE 2 STDOUT "^$" STDERR "${one_error}")
 expect(CODE 2 STDOUT "^$" STDERR "${one_error}" ARGUMENTS ${scene} out.glb --hemicube 3)
 expect(CODE 2 STDOUT "^$" STDERR "${one_error}" ARGUMENTS ${scene} out.glb --no-such-option)
 expect(CODE 2 STDOUT "^$" STDERR "${one_error}" ARGUMENTS ${scene} out.glb --sky 1,nan,1)
 
+expect(CODE 2 STDOUT "^$" STDERR "${one_error}" ARGUMENTS verify)
+expect(CODE 2 STDOUT "^$" STDERR "${one_error}" ARGUMENTS verify ${scene} out.glb --hemicube 16)
+
 # Bad input: one line that names the file, a report on request, no output.
 expect(CODE 1 STDOUT "^$" STDERR "${one_error}" ARGUMENTS ${scene} out.glb --progress none)
 expect(CODE 1 STDOUT "^$" STDERR "${one_error}" ARGUMENTS no_such_file.glb out.glb --progress none)
 expect(CODE 1 STDOUT "\"code\": \"bad-input\"" STDERR "${one_error}" ARGUMENTS ${scene} out.glb --progress none --json -)
+expect(CODE 1 STDOUT "^$" STDERR "${one_error}" ARGUMENTS verify ${scene} out.glb --progress none)
+expect(CODE 1 STDOUT "\"code\": \"bad-input\"" STDERR "${one_error}"
+       ARGUMENTS verify ${scene} out.glb --progress none --json -)
 if(EXISTS ${SCRATCH}/out.glb)
   message(SEND_ERROR "out.glb was written")
 endif()

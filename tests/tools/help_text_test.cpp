@@ -10,6 +10,7 @@
 #include <string>
 
 #include "tools/command_line.h"
+#include "tools/verify_command.h"
 
 namespace gltf_radiosity::tools {
 namespace {
@@ -29,9 +30,8 @@ std::set<std::string> described_options(const std::string& help) {
   return matches(help, "\n  (?:-h,)?(--[a-z0-9-]+(?: [^ \n]+)?) *(?:  |\n)");
 }
 
-/// What --help says about `option`, on one line.
-std::string description_of(const std::string& option) {
-  const std::string help = help_text();
+/// What `help` says about `option`, on one line.
+std::string description_of(const std::string& option, const std::string& help = help_text()) {
   const std::size_t begin = help.find("\n  " + option + " ");
   if (begin == std::string::npos) return "no such option";
   std::size_t end = help.find('\n', begin + 1);
@@ -39,12 +39,19 @@ std::string description_of(const std::string& option) {
   return std::regex_replace(help.substr(begin, end - begin), std::regex("\\s+"), " ");
 }
 
-std::string documentation() {
-  std::ifstream file(PROJECT_SOURCE_DIR "/docs/command-line.md");
+std::string documentation(const std::string& page) {
+  std::ifstream file(PROJECT_SOURCE_DIR "/docs/" + page);
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();
 }
+
+/// The commands, each with the page that documents it.
+struct Command {
+  std::string help;
+  std::string page;
+};
+std::vector<Command> commands() { return {{help_text(), "command-line.md"}, {verify_help_text(), "verify.md"}}; }
 
 TEST(HelpText, DescribesEveryOption) {
   const std::set<std::string> names = matches(help_text(), "\n  (?:-h,)?(--[a-z0-9-]+)");
@@ -52,7 +59,7 @@ TEST(HelpText, DescribesEveryOption) {
       "--refine",   "--patch-size",  "--subdivide", "--sky",         "--sun",        "--no-default-sky",
       "--metals",   "--quality",     "--hemicube",  "--max-patches", "--residual",   "--visibility",
       "--solver",   "--threads",     "--exposure",  "--ev100",       "--color-type", "--json",
-      "--progress", "--light-units", "--config",    "--version",     "--help"};
+      "--progress", "--light-units", "--config",    "--version",     "--help",       "--sky-rotation"};
   EXPECT_EQ(names, expected);
 }
 
@@ -63,6 +70,7 @@ TEST(HelpText, StatesTheDefaultsOfTheLibrary) {
       {"--patch-size", "auto"},
       {"--subdivide", "none"},
       {"--sky", "none"},
+      {"--sky-rotation", fmt::format("{}", library.sky_rotation_degrees)},
       {"--sun", "none"},
       {"--no-default-sky", "off"},
       {"--metals", "diffuse"},
@@ -88,45 +96,57 @@ TEST(HelpText, StatesTheDefaultsOfTheLibrary) {
 }
 
 TEST(HelpText, FitsAHundredColumns) {
-  std::istringstream lines(help_text());
-  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
+  for (const Command& command : commands()) {
+    std::istringstream lines(command.help);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
+  }
 }
 
 TEST(HelpText, ItsExamplesAreAccepted) {
-  const std::set<std::string> examples = matches(help_text(), "\n  gltf-radiosity ([^\n]+)");
-  EXPECT_GE(examples.size(), 3U);
-  for (const std::string& example : examples) {
-    std::vector<std::string> words = {"gltf-radiosity"};
-    std::istringstream stream(example);
-    for (std::string word; stream >> word;) words.push_back(word);
-    std::vector<const char*> arguments;
-    for (const std::string& word : words) arguments.push_back(word.c_str());
-    EXPECT_TRUE(std::holds_alternative<CommandLine>(parse_command_line(arguments))) << example;
+  for (const Command& command : commands()) {
+    const std::set<std::string> examples = matches(command.help, "\n  gltf-radiosity ([^\n]+)");
+    EXPECT_GE(examples.size(), 3U);
+    for (const std::string& example : examples) {
+      std::vector<std::string> words = {"gltf-radiosity"};
+      std::istringstream stream(example);
+      for (std::string word; stream >> word;) words.push_back(word);
+      std::vector<const char*> arguments;
+      for (const std::string& word : words) arguments.push_back(word.c_str());
+      const bool accepted = is_verify_command(arguments)
+                                ? std::holds_alternative<VerifyCommand>(parse_verify_command(arguments))
+                                : std::holds_alternative<CommandLine>(parse_command_line(arguments));
+      EXPECT_TRUE(accepted) << example;
+    }
   }
 }
 
 TEST(HelpText, AgreesWithTheDocumentation) {
-  const std::set<std::string> documented = matches(documentation(), "\n\\| `((?:--)[^`]+)` \\|");
-  std::set<std::string> unescaped;
-  for (const std::string& option : documented) unescaped.insert(std::regex_replace(option, std::regex("\\\\\\|"), "|"));
-  EXPECT_EQ(unescaped, described_options(help_text()));
+  for (const Command& command : commands()) {
+    const std::set<std::string> documented = matches(documentation(command.page), "\n\\| `((?:--)[^`]+)` \\|");
+    std::set<std::string> unescaped;
+    for (const std::string& option : documented)
+      unescaped.insert(std::regex_replace(option, std::regex("\\\\\\|"), "|"));
+    EXPECT_EQ(unescaped, described_options(command.help)) << command.page;
+  }
 }
 
 TEST(HelpText, AgreesWithTheDocumentedDefaults) {
   // | `--hemicube CELLS` | 32 | ...
-  const std::string text = documentation();
   const std::regex row("\n\\| `(--[a-z0-9-]+)[^`]*` \\| ([^|]+) \\|");
-  std::size_t rows = 0;
-  for (auto match = std::sregex_iterator(text.begin(), text.end(), row); match != std::sregex_iterator();
-       ++match, ++rows) {
-    const std::string option = (*match)[1].str();
-    const std::string preset = (*match)[2].str();
-    if (option == "--help" || option == "--version") continue;
-    const std::string description = description_of(option);
-    EXPECT_NE(description.find("(default: " + preset + ")"), std::string::npos)
-        << preset << " is not in " << description;
+  for (const Command& command : commands()) {
+    const std::string text = documentation(command.page);
+    std::size_t rows = 0;
+    for (auto match = std::sregex_iterator(text.begin(), text.end(), row); match != std::sregex_iterator();
+         ++match, ++rows) {
+      const std::string option = (*match)[1].str();
+      const std::string preset = (*match)[2].str();
+      if (option == "--help" || option == "--version") continue;
+      const std::string description = description_of(option, command.help);
+      EXPECT_NE(description.find("(default: " + preset + ")"), std::string::npos)
+          << preset << " is not in " << description;
+    }
+    EXPECT_EQ(rows, described_options(command.help).size()) << command.page;
   }
-  EXPECT_EQ(rows, described_options(help_text()).size());
 }
 
 }  // namespace

@@ -47,6 +47,16 @@ TEST(ParseTriple, WantsExactlyThreeNumbers) {
   }
 }
 
+TEST(ParseSky, IsALuminanceOrAFile) {
+  EXPECT_EQ(std::get<0>(parse_sky("1,2.5,0")), (std::array{1.0, 2.5, 0.0}));
+  for (const std::string_view file : {"sky.hdr", "./1,2,3.hdr", "a,b,c", "2 suns.hdr"}) {
+    EXPECT_EQ(std::get<1>(parse_sky(file)), file);
+  }
+  for (const std::string_view text : {"", "1", "1,1", "1,1,-1", "1,nan,1", "1,1,1e999", "1,2,3,4", ",,"}) {
+    EXPECT_THROW(parse_sky(text), BadValue) << text;
+  }
+}
+
 TEST(ParseSubdivide, CutsAtTheLastEqualsSign) {
   EXPECT_EQ(parse_subdivide("Floor=2"), (std::pair<std::string, int>("Floor", 2)));
   EXPECT_EQ(parse_subdivide("a=b=0"), (std::pair<std::string, int>("a=b", 0)));

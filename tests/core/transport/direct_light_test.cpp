@@ -10,6 +10,7 @@
 #include "core/photometry.h"
 #include "tests/core/prepared_scene.h"
 #include "tests/core/test_scenes.h"
+#include "tests/core/test_skies.h"
 
 namespace radiosity {
 namespace {
@@ -363,6 +364,48 @@ TEST(DirectLight, StopsWhenCancelled) {
   const PreparedScene s(test::cornell_box(), 100);
   const Progress cancelled{.report = {}, .cancelled = [] { return true; }};
   EXPECT_THROW(direct_on_patches(s.direct, s.patches, cancelled), Cancelled);
+}
+
+/// A floor below a black square of 1 m at y = 1, and a sky that is black but for a sun.
+Scene under_a_sun(const glm::vec3& direction, const Rgb& lux) {
+  Scene scene = floor_and_blocker();
+  scene.sky = test::sky_of(512, [](const glm::vec3&) { return 0.0F; });
+  test::add_sun(scene.sky, direction, lux);
+  return scene;
+}
+
+TEST(DirectLight, OfASunInTheSkyIsItsLuxTimesTheCosine) {
+  const glm::vec3 towards = glm::normalize(glm::vec3(1.0F, 1.5F, 0.2F));
+  const PreparedScene s(under_a_sun(towards, {100, 50, 25}), 100);
+  for (const float x : {-1.9F, 0.5F, 1.9F}) {
+    const Rgb light = s.direct.at(on_floor(x), 7);
+    for (int band = 0; band < 3; ++band) {
+      EXPECT_NEAR(light[band], 100.0F / static_cast<float>(1 << band) * towards.y, 0.5F) << x;
+    }
+  }
+  // The square stands in the way half a metre and more around (-1, 0, -0.2) / 1.5.
+  const glm::vec3 shadow = -towards / towards.y;
+  EXPECT_EQ(s.direct.at(on_floor(shadow.x, shadow.z), 3), Rgb(0.0F));
+  EXPECT_EQ(s.direct.at(on_floor(shadow.x + 0.45F, shadow.z - 0.45F), 3), Rgb(0.0F));
+  EXPECT_GT(s.direct.at(on_floor(shadow.x + 0.55F, shadow.z), 3).x, 80.0F);
+  EXPECT_EQ(s.direct.at({{-1.9F, 0, 0}, -kUp}, 3), Rgb(0.0F)) << "from behind";
+}
+
+TEST(DirectLight, OfABrightPartOfTheSkyHasAPenumbra) {
+  // A disc 20 degrees across, overhead. Below the edge of the square half of it is hidden.
+  Scene scene = floor_and_blocker();
+  scene.sky = test::sky_of(1024, [](const glm::vec3& d) { return d.y > 0.985F ? 1000.0F : 0.0F; });
+  const PreparedScene s(scene, 100);
+  const float open = s.direct.at(on_floor(1.9F), 0).x;
+  double edge = 0.0;
+  for (std::uint32_t k = 0; k < 64; ++k) edge += double{s.direct.at(on_floor(0.5F), k).x} / 64.0;
+  EXPECT_NEAR(edge / double{open}, 0.5, 0.02);
+  EXPECT_EQ(s.direct.at(on_floor(0.1F), 0).x, 0.0F);
+  double exact = 0.0;
+  for (std::size_t t = 0; t < scene.sky.map.size(); ++t) {
+    exact += texel_vector(scene.sky, t).y * double{luminance_of(scene.sky.map[t])};
+  }
+  EXPECT_NEAR(double{open} / exact, 1.0, 1e-3);
 }
 
 }  // namespace

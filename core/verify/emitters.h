@@ -1,0 +1,42 @@
+// Emissive triangles as a path tracer aims at them: chosen in proportion to the flux that they send out.
+//
+// Written for verification alone: the baker's lamps (transport/lamps.h) know nothing of it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/scene.h"
+#include "core/verify/random.h"
+
+namespace radiosity {
+
+/// A place on an emissive triangle.
+struct EmitterPlace {
+  std::uint32_t triangle = kNothing;
+  Barycentrics at{0.0F};
+};
+
+/// Immutable once built, thread-safe. The scene must outlive it.
+class Emitters {
+ public:
+  explicit Emitters(const Scene& scene);
+
+  bool empty() const { return triangles_.empty(); }
+
+  /// A triangle in proportion to its flux, a place on it in proportion to area. REQUIRES: not empty().
+  EmitterPlace choose(Random& random) const;
+
+  /// How densely choose() covers a triangle, 1/m2; 0 where it never goes.
+  float density(std::uint32_t triangle) const { return density_.empty() ? 0.0F : density_[triangle]; }
+
+ private:
+  std::vector<std::uint32_t> triangles_;
+  std::vector<double> cumulative_flux_;  ///< [triangles_.size()], up to and with each; in units of lm / pi
+  std::vector<float> density_;           ///< [triangle_count], or empty where nothing emits
+};
+
+/// A point of a triangle, evenly distributed over its area.
+Barycentrics random_place(Random& random);
+
+}  // namespace radiosity

@@ -1,0 +1,26 @@
+// Radiance HDR (.hdr, RGBE) -> linear pixels, behind bounds of its own.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/rgb.h"
+#include "plugin/result.h"
+
+namespace gltf_radiosity {
+
+/// Rows from the top.
+struct HdrImage {
+  int width = 0, height = 0;
+  std::vector<radiosity::Rgb> texels;  ///< [height * width], finite and not negative
+};
+
+/// The largest image that is decoded.
+inline constexpr int kMaxHdrWidth = 16384, kMaxHdrHeight = 8192;
+
+/// `place` goes into errors: a file's name. EXPOSURE and PRIMARIES in the header are not looked at, as in the engines.
+Result<HdrImage> decode_hdr(std::span<const std::uint8_t> bytes, const std::string& place);
+
+}  // namespace gltf_radiosity
