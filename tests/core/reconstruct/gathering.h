@@ -15,13 +15,8 @@ struct Gathering {
   explicit Gathering(const Scene& scene, const Rgb& patch_radiosity = Rgb(0.0F), int resolution = 16)
       : prepared(scene, 200, resolution),
         radiosity(prepared.patches.patch_count(), patch_radiosity),
-        gatherer{prepared.scene,
-                 prepared.patches,
-                 prepared.hemicube,
-                 *prepared.items,
-                 prepared.direct,
-                 radiosity,
-                 surface_offset(prepared.scene)} {}
+        gatherer{prepared.scene,  prepared.patches, prepared.hemicube, *prepared.items,
+                 prepared.direct, prepared.sky,     radiosity,         surface_offset(prepared.scene)} {}
 
   Samples samples(const SampleOptions& options) const {
     return gather_samples(unrefined(prepared.scene), gatherer, options, {});

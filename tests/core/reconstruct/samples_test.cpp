@@ -18,7 +18,7 @@ using test::solid_box;
 
 TEST(Samples, AreNoneInsideASolid) {
   Scene scene = solid_box();
-  scene.sky = Rgb(1.0F);
+  scene.sky.luminance = Rgb(1.0F);
   const auto first = static_cast<std::uint32_t>(scene.positions.size());
   for (const glm::vec3 p : {glm::vec3(0.4F, 0.5F, 0.4F), {0.4F, 0.5F, 0.6F}, {0.6F, 0.5F, 0.6F}}) {
     scene.positions.push_back(p);
@@ -34,7 +34,7 @@ TEST(Samples, AreNoneInsideASolid) {
 
 TEST(Samples, AreNoneWithoutArea) {
   Scene scene = floor_only();
-  scene.sky = Rgb(1.0F);
+  scene.sky.luminance = Rgb(1.0F);
   scene.triangles.emplace_back(0, 1, 1);
   scene.surface_of_triangle.push_back(0);
   const ElementLight light = Gathering(scene).elements();
@@ -44,7 +44,7 @@ TEST(Samples, AreNoneWithoutArea) {
 TEST(Samples, ShowTheBackOfATwoSidedSurfaceWhereItsFrontIsBuried) {
   // The square faces down, onto the back of a plate just below it; the sky is above.
   Scene scene = floor_only();
-  scene.sky = Rgb(1.0F);
+  scene.sky.luminance = Rgb(1.0F);
   for (glm::uvec3& triangle : scene.triangles) std::swap(triangle.y, triangle.z);
   for (glm::vec3& normal : scene.normals) normal = -normal;
   const Scene plate = scene;

@@ -64,7 +64,7 @@ TEST(PathTracer, AWhiteFurnaceIsExitanceOverAbsorption) {
 
 TEST(PathTracer, AnOpenSkyBringsPiTimesItsLuminance) {
   Scene scene = black_floor();
-  scene.sky = Rgb(3.0F);
+  scene.sky.luminance = Rgb(3.0F);
   const Estimate light = estimate(scene, kFloorPoint, 100);
   EXPECT_NEAR(light.luminance, 3.0 * double{kPi}, 1e-3);
 }
@@ -138,13 +138,8 @@ TEST(PathTracer, AgreesWithTheGathererInTheCornellBox) {
   RowCache rows(*prepared.rows, std::size_t{1} << 30U);
   const std::vector<Rgb> direct = direct_on_patches(prepared.direct, prepared.patches, {});
   const Solution solution = solve_gathering({prepared.patches, direct, 1e-3F}, rows, {});
-  const Gatherer gatherer{prepared.scene,
-                          prepared.patches,
-                          prepared.hemicube,
-                          *prepared.items,
-                          prepared.direct,
-                          solution.radiosity,
-                          surface_offset(prepared.scene)};
+  const Gatherer gatherer{prepared.scene,  prepared.patches, prepared.hemicube,  *prepared.items,
+                          prepared.direct, prepared.sky,     solution.radiosity, surface_offset(prepared.scene)};
   const PathTracer tracer(prepared.rays);
   const SurfacePoint points[] = {
       {{0.1F, 0.0F, 0.1F}, {0, 1, 0}}, {{0.45F, 0.0F, 0.25F}, {0, 1, 0}}, {{0.25F, 0.4F, 0.559F}, {0, 0, -1}}};
