@@ -16,7 +16,6 @@
 namespace gltf_radiosity {
 namespace {
 
-using radiosity::Hit;
 using radiosity::Ray;
 using radiosity::Rgb;
 

@@ -108,9 +108,10 @@ void add_warnings(VerifyReport& report) {
                                fmt::format("{} of {} points of the baked file do not lie on a surface of the source",
                                            report.unmatched_points, all)});
   }
-  if (report.reference_noise > report.relative_rmse) {
+  constexpr double kFarAboveError = 3.0;
+  if (report.reference_noise > kFarAboveError * report.relative_rmse) {
     report.warnings.push_back({"noisy-truth", "",
-                               fmt::format("the noise of the truth, {:.2g} %, is above the error; more samples "
+                               fmt::format("the noise of the truth, {:.2g} %, is far above the error; more samples "
                                            "(--max-samples) tell more",
                                            100.0 * report.reference_noise)});
   }
