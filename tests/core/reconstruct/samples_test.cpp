@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/mesh/subdivide_uniform.h"
+#include "core/parallel.h"
 #include "core/photometry.h"
 #include "tests/core/reconstruct/gathering.h"
 #include "tests/core/test_scenes.h"
@@ -15,6 +18,11 @@ namespace {
 using test::floor_only;
 using test::Gathering;
 using test::solid_box;
+
+Scene under_sky(Scene scene) {
+  scene.sky.luminance = Rgb(1.0F);
+  return scene;
+}
 
 TEST(Samples, AreNoneInsideASolid) {
   Scene scene = solid_box();
@@ -81,8 +89,77 @@ TEST(Samples, LookAlongTheShadingNormals) {
     EXPECT_NEAR(irradiance.x, 10.0F * shading.y, 1e-4F);
 }
 
+/// A cut floor under the sky; the finer side reaches from one corner to the diagonal.
+struct CutFloor {
+  CutFloor(std::int8_t coarse, std::int8_t fine) : gathering(under_sky(floor_only())) {
+    const std::int8_t levels[] = {coarse, fine};
+    mesh = subdivide_uniform(gathering.prepared.scene, {.level_of_triangle = levels}, {}).mesh;
+  }
+  Samples samples(const SampleOptions& options) const { return gather_samples(mesh, gathering.gatherer, options, {}); }
+
+  Gathering gathering;
+  RefinedMesh mesh;
+};
+
+/// How many samples lie in each triangle of the scene.
+std::vector<std::uint32_t> count_by_triangle(const RefinedMesh& mesh, const Samples& samples) {
+  std::vector<std::uint32_t> counts;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    counts.resize(std::max<std::size_t>(counts.size(), mesh.triangle_of_element[e] + 1), 0U);
+    counts[mesh.triangle_of_element[e]] += samples.first_of_element[e + 1] - samples.first_of_element[e];
+  }
+  return counts;
+}
+
+TEST(Samples, AreSeveralInEveryElementOfACoarseMesh) {
+  const CutFloor floor(1, 4);  // areas 1 : 64, and some in between along the diagonal
+  const Samples samples = floor.samples({.per_element = 3});
+  for (std::size_t e = 0; e < floor.mesh.elements.size(); ++e) {
+    EXPECT_GE(samples.first_of_element[e + 1] - samples.first_of_element[e], 3U) << e;
+  }
+}
+
 TEST(Samples, AreMoreInALargeElement) {
-  // One element, half of it in the shadow of the sun: one sample would answer all or nothing.
+  const CutFloor floor(1, 4);
+  const Samples samples = floor.samples({.per_element = 3});
+  const auto count = floor.mesh.elements.size();
+  for (std::uint32_t e = 0; e < count; ++e) {
+    // An ordinary element has the mean area, 16 m2 / count.
+    const double wanted = 3.0 * double{element_area(floor.mesh, e)} * static_cast<double>(count) / 16.0;
+    const double expected = std::clamp(wanted, 3.0, 64.0);
+    EXPECT_NEAR(samples.first_of_element[e + 1] - samples.first_of_element[e], expected, 1.0) << e;
+  }
+}
+
+TEST(Samples, AreSpreadByAreaInAFineMesh) {
+  const CutFloor floor(2, 6);  // 16 elements in one half, 4096 and those along the diagonal in the other
+  ASSERT_GT(floor.mesh.elements.size(), 4000U);
+  const SampleOptions options{.per_element = 3, .max_ordinary = 500};
+  const Samples samples = floor.samples(options);
+  EXPECT_LE(samples.sample_count(), options.max_ordinary * 3 + 1);
+  const std::vector<std::uint32_t> counts = count_by_triangle(floor.mesh, samples);
+  EXPECT_NEAR(counts[1], 750.0, 1.0);
+  EXPECT_NEAR(counts[0], 750.0, 16.0);  // 47 in each of 16 elements
+}
+
+TEST(Samples, CoverAnElementEvenly) {
+  // Moments of a triangle by its corner weights: 1/3, and 1/6 for squares; kept a little away from the edges.
+  const CutFloor floor(3, 3);
+  const Samples samples = floor.samples({.per_element = 16});
+  glm::dvec3 mean(0.0), square(0.0);
+  for (const glm::vec3& weights : samples.weights) {
+    EXPECT_NEAR(weights.x + weights.y + weights.z, 1.0F, 1e-6F);
+    for (int k = 0; k < 3; ++k) EXPECT_GT(weights[k], 0.01F);
+    mean += glm::dvec3(weights);
+    square += glm::dvec3(weights * weights);
+  }
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(mean[k] / static_cast<double>(samples.sample_count()), 1.0 / 3.0, 0.005);
+    EXPECT_NEAR(square[k] / static_cast<double>(samples.sample_count()), 1.0 / 6.0, 0.01);
+  }
+}
+
+TEST(Samples, FindTheMeanOfAnElementHalfInShadow) {
   Scene scene = floor_only();
   scene.lights = {{.kind = Light::Kind::kDirectional, .direction = {0, -1, 0}}};
   for (const glm::vec3 p : {glm::vec3(-3, 1, -3), {0, 1, -3}, {0, 1, 3}, {-3, 1, 3}}) {
@@ -92,8 +169,59 @@ TEST(Samples, AreMoreInALargeElement) {
   scene.triangles.emplace_back(4, 6, 5);
   scene.triangles.emplace_back(4, 7, 6);
   scene.surface_of_triangle.insert(scene.surface_of_triangle.end(), 2, 1U);
-  const ElementLight light = Gathering(scene).elements();
+  const ElementLight light = mean_of_samples(Gathering(scene).samples({.per_element = 32}));
   EXPECT_NEAR(0.5F * (light.irradiance[0].x + light.irradiance[1].x), 0.5F, 0.1F);
+}
+
+TEST(Samples, AreNeverBelowWhatStandsOnAFloor) {
+  const Gathering g(test::sunk_box(0.5F));
+  const RefinedMesh mesh = subdivide_uniform(g.prepared.scene, {.patch_size = 0.3F, .level_of_triangle = {}}, {}).mesh;
+  const Samples samples = gather_samples(mesh, g.gatherer, {}, {});
+  int on_floor = 0;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    for (std::uint32_t s = samples.first_of_element[e]; s < samples.first_of_element[e + 1]; ++s) {
+      if (mesh.triangle_of_element[e] >= 2) continue;
+      const glm::uvec3& element = mesh.elements[e];
+      glm::vec3 position(0.0F);
+      for (int k = 0; k < 3; ++k) position += samples.weights[s][k] * mesh.positions[element[k]];
+      EXPECT_FALSE(position.x > -0.37F && position.x < 0.63F && position.z > -0.71F && position.z < 0.29F);
+      EXPECT_GE(samples.irradiance[s].y, 9.999F);  // the sun
+      ++on_floor;
+    }
+  }
+  EXPECT_GT(on_floor, 300);
+  EXPECT_GT(std::count(samples.buried.begin(), samples.buried.end(), 1), 10);
+}
+
+TEST(Samples, AreTheSameForAnyNumberOfThreads) {
+  const Gathering g(test::cornell_box(), Rgb(0.3F, 0.2F, 0.1F));
+  const RefinedMesh mesh = subdivide_uniform(g.prepared.scene, {.patch_size = 0.1F, .level_of_triangle = {}}, {}).mesh;
+  const Samples all = gather_samples(mesh, g.gatherer, {}, {});
+  for (const int threads : {1, 3}) {
+    const Samples some = on_threads(threads, [&] { return gather_samples(mesh, g.gatherer, {}, {}); });
+    EXPECT_EQ(some.first_of_element, all.first_of_element);
+    EXPECT_EQ(some.weights, all.weights);
+    EXPECT_EQ(some.irradiance, all.irradiance);
+    EXPECT_EQ(some.buried, all.buried);
+  }
+}
+
+TEST(Samples, AreNoneInAnEmptyMesh) {
+  const Gathering g(floor_only());
+  const Samples samples = gather_samples({}, g.gatherer, {}, {});
+  EXPECT_EQ(samples.sample_count(), 0U);
+  EXPECT_EQ(samples.first_of_element, (std::vector<std::uint32_t>{0}));
+  EXPECT_TRUE(mean_of_samples(samples).irradiance.empty());
+}
+
+TEST(Samples, HaveAMeanByElement) {
+  const Samples samples{.first_of_element = {0, 2, 2, 3},
+                        .weights = std::vector<glm::vec3>(3, glm::vec3(1.0F / 3.0F)),
+                        .irradiance = {{1, 2, 3}, {3, 2, 1}, {5, 5, 5}},
+                        .buried = {0, 1, 0}};
+  const ElementLight light = mean_of_samples(samples);
+  EXPECT_EQ(light.irradiance, (std::vector<Rgb>{{2, 2, 2}, {0, 0, 0}, {5, 5, 5}}));
+  EXPECT_EQ(light.unknown, (std::vector<std::uint8_t>{0, 1, 0}));
 }
 
 TEST(Samples, StopWhenCancelled) {

@@ -113,7 +113,7 @@ TEST(FormFactors, ReachTheBackOfATwoSidedSurface) {
   Scene scene = test::parallel_squares(1.0F);
   for (std::size_t t = 2; t < 4; ++t) std::swap(scene.triangles[t].y, scene.triangles[t].z);
   scene.surfaces[1].two_sided = true;
-  const PreparedScene s(scene, 150, 16);
+  const PreparedScene s(scene, 300, 16);  // half of them on the side that sees nothing
   double to_the_back = 0.0;
   for (std::uint32_t i = 0; i < s.patches.patch_count(); ++i) {
     if (s.patches.points_of(i)[0].position.z > 0.5F) continue;
