@@ -190,7 +190,8 @@ std::vector<Emitter> find_emitters(const Scene& scene, const Patches& patches) {
 /// The emitters with most flux become lamps, the others make their patches glow.
 void set_lamps_apart(const Scene& scene, Patches& patches, Sums& sums) {
   std::vector<Emitter> emitters = find_emitters(scene, patches);
-  std::stable_sort(emitters.begin(), emitters.end(), [](const Emitter& a, const Emitter& b) { return a.flux > b.flux; });
+  std::stable_sort(emitters.begin(), emitters.end(),
+                   [](const Emitter& a, const Emitter& b) { return a.flux > b.flux; });
   double all = 0.0, glowing = 0.0;
   for (std::size_t k = 0; k < emitters.size(); ++k) {
     const Emitter& e = emitters[k];
@@ -204,9 +205,8 @@ void set_lamps_apart(const Scene& scene, Patches& patches, Sums& sums) {
       continue;
     }
     glowing += double{e.flux};
-    for_both_sides(patches, e.triangle, middle, [&](std::uint32_t patch) {
-      sums.glow[patch] += glm::dvec3(e.luminance) * double{e.area};
-    });
+    for_both_sides(patches, e.triangle, middle,
+                   [&](std::uint32_t patch) { sums.glow[patch] += glm::dvec3(e.luminance) * double{e.area}; });
   }
   patches.glow_share = all > 0.0 ? glowing / all : 0.0;
 }
@@ -250,6 +250,9 @@ void place_points(const Scene& scene, std::span<const Survey> surveys, int point
       glm::vec2 at(glm::fract(glm::dvec2(0.5) + step * glm::dvec2(0.7548776662466927, 0.5698402909980532)));
       if (at.x + at.y > 1.0F) at = 1.0F - at;
       at = glm::mix(glm::vec2(1.0F / 3.0F), at, 0.9F);
+      // Something may stand on the shortest tiles: their middle decided which side of it they are on.
+      const bool shortest = longest_edge(scene, tile.triangle, tile.part) < kShortestCut * patches.size;
+      if (shortest) at = glm::vec2(1.0F / 3.0F);
       const auto& c = tile.part.corner;
       const Barycentrics place = c[0] + at.x * (c[1] - c[0]) + at.y * (c[2] - c[0]);
       patches.points[patch * static_cast<std::size_t>(points_per_patch) + static_cast<std::size_t>(k)] = {

@@ -23,9 +23,6 @@ constexpr int kCoveringRays = 4;
 /// Parts of one group at most: in a thicket nothing sees anything.
 constexpr std::size_t kMaxParts = 6;
 
-/// Tiles are not cut when they are shorter than twice this share of a patch.
-constexpr float kShortestTile = 1.0F / 16.0F;
-
 /// The surroundings of tiles, at the scale of a patch.
 class Surveyor {
  public:
@@ -72,7 +69,7 @@ class Surveyor {
   }
 
   bool may_be_cut(const Tile& tile) const {
-    return longest_edge(rays_.scene(), tile.triangle, tile.part) >= 2.0F * kShortestTile * size_;
+    return longest_edge(rays_.scene(), tile.triangle, tile.part) >= kShortestCut * size_;
   }
 
   /// The part that `lookout` belongs to; founds one if it sees none and there is room.

@@ -34,6 +34,9 @@ struct Survey {
   Lookout side[2];
 };
 
+/// In shares of the size of a patch: shorter tiles are not cut, whatever stands on them.
+inline constexpr float kShortestCut = 1.0F / 8.0F;
+
 /// Cuts tiles that something stands on, down to a sixteenth of the size of a patch (m), and describes all that remain.
 /// Throws `Cancelled`.
 std::vector<Survey> cut_straddling_tiles(const RayScene& rays, float patch_size, Tiling& tiling,
