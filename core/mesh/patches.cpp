@@ -190,7 +190,8 @@ std::vector<Emitter> find_emitters(const Scene& scene, const Patches& patches) {
 /// The emitters with most flux become lamps, the others make their patches glow.
 void set_lamps_apart(const Scene& scene, Patches& patches, Sums& sums) {
   std::vector<Emitter> emitters = find_emitters(scene, patches);
-  std::stable_sort(emitters.begin(), emitters.end(), [](const Emitter& a, const Emitter& b) { return a.flux > b.flux; });
+  std::stable_sort(emitters.begin(), emitters.end(),
+                   [](const Emitter& a, const Emitter& b) { return a.flux > b.flux; });
   double all = 0.0, glowing = 0.0;
   for (std::size_t k = 0; k < emitters.size(); ++k) {
     const Emitter& e = emitters[k];
@@ -204,9 +205,8 @@ void set_lamps_apart(const Scene& scene, Patches& patches, Sums& sums) {
       continue;
     }
     glowing += double{e.flux};
-    for_both_sides(patches, e.triangle, middle, [&](std::uint32_t patch) {
-      sums.glow[patch] += glm::dvec3(e.luminance) * double{e.area};
-    });
+    for_both_sides(patches, e.triangle, middle,
+                   [&](std::uint32_t patch) { sums.glow[patch] += glm::dvec3(e.luminance) * double{e.area}; });
   }
   patches.glow_share = all > 0.0 ? glowing / all : 0.0;
 }
