@@ -87,6 +87,7 @@ class Painter {
         options_(options),
         tracer_(scenes.input_rays),
         baked_(baked_triangles(scenes.output)),
+        white_(static_cast<float>(1.0 / scale.exposure)),
         camera_(camera_of(scenes.output_rays, options.camera)),
         input_step_(radiosity::surface_offset(scenes.input.scene)),
         output_step_(radiosity::surface_offset(scenes.output.scene)) {}
@@ -105,9 +106,8 @@ class Painter {
       pixel.truth += truth_along(ray, random);
     }
     pixel.displayed /= static_cast<float>(samples);
-    // Cut off where white is, but on the mean: single paths are far brighter and far darker than it.
-    const auto white = static_cast<float>(1.0 / scale_.exposure);
-    pixel.truth = glm::min(pixel.truth / static_cast<float>(samples), Rgb(white));
+    // What is reflected is cut off on the mean: single paths are far brighter and far darker than it.
+    pixel.truth = glm::min(pixel.truth / static_cast<float>(samples), white_);
     return pixel;
   }
 
@@ -142,17 +142,19 @@ class Painter {
     pixel.normal += hit->back ? -front : front;
   }
 
+  /// Luminance; sky and emission cut off where white is, sample by sample as the display does.
   Rgb truth_along(const Ray& ray, radiosity::Random& random) const {
     const radiosity::Scene& scene = scenes_.input.scene;
     const auto hit =
         radiosity::nearest_seen(scenes_.input_rays, ray, input_step_, [&random] { return random.share(); });
-    if (!hit) return radiosity::sky_luminance(scene, ray.direction);
+    if (!hit) return glm::min(radiosity::sky_luminance(scene, ray.direction), white_);
     const radiosity::SurfacePlace place{hit->triangle, hit->at};
     const glm::vec3 front = radiosity::shading_normal(scene, place);
     const glm::vec3 position = radiosity::point_at(scene, place.triangle, place.at);
     const radiosity::PathSample path = tracer_.sample(position, hit->back ? -front : front, random);
+    const Rgb emission = radiosity::mean_emission(scene, place.triangle, {{place.at, place.at, place.at}});
     return radiosity::reflected_luminance(displayed_reflectance(scenes_.input, place), path.irradiance) +
-           radiosity::mean_emission(scene, place.triangle, {{place.at, place.at, place.at}});
+           glm::min(emission, white_);
   }
 
   const PicturedScenes& scenes_;
@@ -160,6 +162,7 @@ class Painter {
   const VerifyOptions& options_;
   radiosity::PathTracer tracer_;
   std::vector<std::uint8_t> baked_;
+  Rgb white_;  ///< the brightest that can be shown, cd/m2
   radiosity::Camera camera_;
   float input_step_, output_step_;  ///< metres behind a surface that is not seen
 };

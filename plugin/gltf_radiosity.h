@@ -55,7 +55,7 @@ struct Options {
   VisibilityMethod visibility = VisibilityMethod::kAuto;
   SolverMethod solver = SolverMethod::kGathering;
   double residual = 0.001;  ///< stop at this share of unshot flux, (0, 1)
-  int max_patches = 20'000;
+  int max_patches = 10'000;
   int threads = 0;  ///< 0: every core
   // Output
   std::optional<double> exposure;  ///< k, m2/cd; none chooses automatically

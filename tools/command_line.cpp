@@ -32,7 +32,7 @@ struct Quality {
   int max_patches = 0;
 };
 constexpr Quality kMedium{Options{}.hemicube, Options{}.max_patches};
-constexpr Choices<Quality, 3> kQuality{{{"draft", {16, 1500}}, {"medium", kMedium}, {"high", {64, 12000}}}};
+constexpr Choices<Quality, 3> kQuality{{{"draft", {8, 4000}}, {"medium", kMedium}, {"high", {32, 60000}}}};
 
 // ---- the options, group by group ----
 

@@ -54,7 +54,8 @@ void add_smoothness(double weight, ElementMatrix& m) {
 }
 
 System make_system(const RefinedMesh& mesh, const Samples& samples, const SmoothGroups& groups, double damping) {
-  System system{{}, std::vector<double>(groups.group_count, 0.0),
+  System system{{},
+                std::vector<double>(groups.group_count, 0.0),
                 std::vector<glm::dvec3>(groups.group_count, glm::dvec3(0.0)),
                 std::vector<std::uint8_t>(groups.group_count, 0)};
   for (std::uint32_t e = 0; e < mesh.elements.size(); ++e) {

@@ -13,8 +13,9 @@
 namespace radiosity {
 
 struct SampleOptions {
-  int per_element = 3;                ///< in an element of ordinary size, >= 1
-  std::size_t max_ordinary = 300'000;  ///< elements of ordinary size at most: in finer meshes samples are spread by area
+  int per_element = 3;  ///< in an element of ordinary size, >= 1
+  std::size_t max_ordinary =
+      300'000;  ///< elements of ordinary size at most: in finer meshes samples are spread by area
 };
 
 /// Samples, grouped by element in ascending order; none of them buried. Shapes: per sample [sample_count()].
