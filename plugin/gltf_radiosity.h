@@ -64,8 +64,8 @@ struct Options {
 
 /// Called from one thread at a time.
 struct Callbacks {
-  /// `phase` is one of "read", "import", "subdivide", "patches", "direct", "sky", "solve", "gather", "export", "write";
-  /// `done` in [0,1].
+  /// `phase` is one of "read", "import", "subdivide", "patches", "direct", "sky", "solve", "gather", "fit", "export",
+  /// "write"; `done` in [0,1].
   std::function<void(std::string_view phase, double done)> progress;
   /// Answer true to stop: the bake ends with ErrorCode::kCancelled within a second and writes nothing.
   std::function<bool()> cancelled;

@@ -84,7 +84,7 @@ TEST(GltfRadiosity, TheReportAddsUp) {
     EXPECT_GE(phase.seconds, 0.0);
     EXPECT_GT(phase.peak_memory_bytes, 1000000U);
   }
-  for (const char* phase : {"read", "import", "subdivide", "solve", "gather", "export", "write"}) {
+  for (const char* phase : {"read", "import", "subdivide", "solve", "gather", "fit", "export", "write"}) {
     EXPECT_TRUE(names.contains(phase)) << phase;
   }
 }

@@ -92,6 +92,19 @@ TEST(Patches, KeepBelowTheirLimit) {
   }
 }
 
+TEST(Patches, KeepBelowTheirLimitWhereManyAreSplit) {
+  const std::vector<std::pair<std::string, Scene>> cluttered = {{"boxes", test::many_boxes(60, 3)},
+                                                                {"rooms", test::rooms_on_one_floor(0.873F, 0.002F)},
+                                                                {"sunk box", test::sunk_box(0.5F)},
+                                                                {"wall", test::wall_through_floor(0.5F)},
+                                                                {"panel", test::panel_before_wall(0.001F)}};
+  for (const auto& [name, scene] : cluttered) {
+    for (const int most : {60, 500, 2000}) {
+      EXPECT_LE(patches_of(scene, most).patch_count(), static_cast<std::uint32_t>(most)) << name;
+    }
+  }
+}
+
 TEST(Patches, GroupADenseMesh) {
   const Scene coarse = test::box_room({2, 1, 3}, {});
   const auto coarse_count = static_cast<double>(patches_of(coarse, 600).patch_count());
