@@ -28,9 +28,9 @@ struct BakeOptions {
   Visibility visibility = Visibility::kAuto;
   Solver solver = Solver::kGathering;
   Fit fit = Fit::kLeastSquares;
-  float residual = 0.001F;  ///< stop when this share of the emitted flux is still unshot, (0,1)
-  int max_patches = 10'000;   ///< patches that send light; more see finer indirect light
-  int lamp_rays = 32;         ///< shadow rays from a sample to all lamps together, where some are hidden
+  float residual = 0.001F;   ///< stop when this share of the emitted flux is still unshot, (0,1)
+  int max_patches = 10'000;  ///< patches that send light; more see finer indirect light
+  int lamp_rays = 32;        ///< shadow rays from a sample to all lamps together, where some are hidden
   std::size_t row_cache_bytes = std::size_t{1} << 30;  ///< memory for rows of form factors
   int threads = 0;                                     ///< 0 uses every core; the result does not depend on it
 };
