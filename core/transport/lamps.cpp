@@ -17,6 +17,9 @@ constexpr float kPointLike = 6.0F;
 /// vertices; at 12, 0.4 %, as quickly.
 constexpr float kFar = 12.0F;
 
+/// A group whose mean normal is longer than this counts as flat.
+constexpr float kFlat = 0.95F;
+
 /// A polygon cut off at a horizon: a triangle keeps at most four corners.
 struct Polygon {
   glm::vec3 corner[4];
@@ -111,21 +114,28 @@ std::uint32_t Lamps::build(std::uint32_t first, std::uint32_t count) {
   groups_.push_back(describe(first, count));
   if (count == 1) return group;
 
-  // Halves along the longest axis of the middles.
+  // Lamps that face different ways part first: what a flat group brings from afar is easily estimated. Then halves.
   const auto begin = tiles_.begin() + first, end = begin + count;
-  glm::vec3 low = middle_of(*begin), high = low;
+  const bool flat = glm::length(groups_[group].facing) > kFlat;
+  const auto key = [flat](const EmissiveTile& lamp) {
+    return flat ? middle_of(lamp) : glm::normalize(scaled_normal(lamp));
+  };
+  glm::vec3 low = key(*begin), high = low;
   for (auto lamp = begin; lamp != end; ++lamp) {
-    low = glm::min(low, middle_of(*lamp));
-    high = glm::max(high, middle_of(*lamp));
+    low = glm::min(low, key(*lamp));
+    high = glm::max(high, key(*lamp));
   }
   const glm::vec3 extent = high - low;
   const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
-  std::stable_sort(begin, end, [axis](const EmissiveTile& a, const EmissiveTile& b) {
-    return middle_of(a)[axis] < middle_of(b)[axis];
-  });
-  const std::uint32_t half = count / 2;
-  build(first, half);
-  const std::uint32_t second = build(first + half, count - half);
+  std::stable_sort(begin, end,
+                   [&](const EmissiveTile& a, const EmissiveTile& b) { return key(a)[axis] < key(b)[axis]; });
+  const float middle = 0.5F * (low[axis] + high[axis]);
+  const auto split =
+      flat ? begin + count / 2
+           : std::partition_point(begin, end, [&](const EmissiveTile& lamp) { return key(lamp)[axis] < middle; });
+  const auto nearer = std::clamp(static_cast<std::uint32_t>(split - begin), 1U, count - 1);
+  build(first, nearer);
+  const std::uint32_t second = build(first + nearer, count - nearer);
   groups_[group].second_child = second;
   return group;
 }
