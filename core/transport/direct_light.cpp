@@ -108,7 +108,7 @@ Rgb DirectLight::from_lamps(const SurfacePoint& point, std::uint32_t index) cons
   const glm::vec3 start(shift(index, 1), shift(index, 2), shift(index, 3));
   const auto add_ray = [&](int r) {
     const auto step = static_cast<float>(r);
-    const ChosenLamp chosen = lamps_.choose(point, scratch.weights, (r + double{start.x}) / options_.lamp_rays);
+    const ChosenLamp chosen = lamps_.choose(scratch.weights, (r + double{start.x}) / options_.lamp_rays);
     const auto& corner = lamps_.tile(chosen.lamp).corner;
     glm::vec2 at = glm::fract(glm::vec2(start.y, start.z) + step * glm::vec2(0.75487767F, 0.56984029F));
     if (at.x + at.y > 1.0F) at = 1.0F - at;
