@@ -162,7 +162,7 @@ void sum_reflectance(const Scene& scene, std::span<const Survey> surveys, Patche
   }
 }
 
-/// A part of a triangle that emits, about as large as a patch.
+/// A part of a triangle that emits.
 struct Emitter {
   std::uint32_t triangle;
   SubTriangle part;
@@ -170,13 +170,35 @@ struct Emitter {
   float area, flux;
 };
 
-std::vector<Emitter> find_emitters(const Scene& scene, const Patches& patches) {
-  std::vector<Emitter> emitters;
+/// Triangles that may emit.
+std::vector<std::uint32_t> find_emissive(const Scene& scene, const Patches& patches) {
+  std::vector<std::uint32_t> found;
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
-    const float triangle_area = patches.tiling.area_of_triangle[t];
-    if (!(triangle_area > 0.0F) || !emits(scene.surfaces[scene.surface_of_triangle[t]])) continue;
-    const std::uint32_t cuts = cuts_for(scene, t, patches.size);
-    const float area = triangle_area / static_cast<float>(cuts * cuts);
+    const bool has_area = patches.tiling.area_of_triangle[t] > 0.0F;
+    if (has_area && emits(scene.surfaces[scene.surface_of_triangle[t]])) found.push_back(t);
+  }
+  return found;
+}
+
+/// Length of an emitter, metres: that of a patch, or longer so that all of them can be lamps.
+float emitter_length(const Scene& scene, std::span<const std::uint32_t> emissive, float patch_size) {
+  float length = patch_size;
+  for (const float longest = diagonal(scene); length < longest; length *= 1.25F) {
+    std::uint64_t count = 0;
+    for (const std::uint32_t t : emissive)
+      count += std::uint64_t{cuts_for(scene, t, length)} * cuts_for(scene, t, length);
+    if (count <= std::max(kMaxLamps, emissive.size())) break;
+  }
+  return length;
+}
+
+std::vector<Emitter> find_emitters(const Scene& scene, const Patches& patches) {
+  const std::vector<std::uint32_t> emissive = find_emissive(scene, patches);
+  const float length = emitter_length(scene, emissive, patches.size);
+  std::vector<Emitter> emitters;
+  for (const std::uint32_t t : emissive) {
+    const std::uint32_t cuts = cuts_for(scene, t, length);
+    const float area = patches.tiling.area_of_triangle[t] / static_cast<float>(cuts * cuts);
     for (std::uint32_t k = 0; k < cuts * cuts; ++k) {
       const SubTriangle part = tile_part(cuts, k);
       const Rgb luminance = mean_emission(scene, t, part);
