@@ -208,9 +208,9 @@ TEST(Patches, SetLampsApart) {
   for (const Rgb& glow : patches.glow) EXPECT_EQ(glow, Rgb(0.0F));
 }
 
-TEST(Patches, LoseNoFluxWhenThereAreMoreTilesThanLamps) {
+TEST(Patches, LoseNoFluxWhenThereAreMoreEmissiveTrianglesThanLamps) {
   const Ramp ramp;
-  Scene scene = test::white_furnace(0.5F, 1.0F);
+  Scene scene = test::tessellated(test::white_furnace(0.5F, 1.0F), 28);
   scene.surfaces[0].varies = true;
   scene.detail = &ramp;
   const Patches patches = patches_of(scene, 9000);
@@ -223,8 +223,15 @@ TEST(Patches, LoseNoFluxWhenThereAreMoreTilesThanLamps) {
   }
   for (std::uint32_t p = 0; p < patches.patch_count(); ++p) remainder += double{patches.area[p] * patches.glow[p].y};
   EXPECT_NEAR(lamps + remainder, 10.0 / 3.0 * 6.0, 1e-3);
-  const double share_of_tiles = double{kMaxLamps} / static_cast<double>(patches.patch_of_tile.size());
-  EXPECT_GT(lamps / (lamps + remainder), share_of_tiles);  // the brightest tiles were chosen
+  EXPECT_NEAR(patches.glow_share, remainder / (lamps + remainder), 1e-5);
+  EXPECT_NEAR(patches.glow_share, 1.0 - double{kMaxLamps} / static_cast<double>(scene.triangles.size()), 1e-3);
+}
+
+TEST(Patches, LeaveNothingToGlowWhereAllEmittersCanBeLamps) {
+  // However small the patches.
+  const Patches patches = patches_of(test::white_furnace(0.5F, 1.0F), 20'000);
+  EXPECT_LE(patches.lamps.size(), kMaxLamps);
+  EXPECT_EQ(patches.glow_share, 0.0);
 }
 
 TEST(Patches, LeaveOutTrianglesWithoutArea) {
