@@ -257,7 +257,6 @@ TEST(Bake, BalancesFlux) {
                                                {"cornell by a point", punctual}};
   for (const auto& [name, scene] : scenes) {
     BakeOptions options = quick(0.5F);
-    options.max_patches = 1000;  // one hemicube to a patch: at 300 the room is 1.6 % off
     options.solver = Solver::kProgressive;
     const BakeReport shot = bake(scene, options, {}).report;
     EXPECT_GT(shot.emitted_flux, 0.0);
