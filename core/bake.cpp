@@ -11,6 +11,7 @@
 #include "core/reconstruct/samples.h"
 #include "core/transport/direct_light.h"
 #include "core/transport/energy_balance.h"
+#include "core/transport/exchange_checks.h"
 #include "core/transport/sky_light.h"
 #include "core/transport/solve_gathering.h"
 #include "core/transport/solve_progressive.h"
@@ -44,6 +45,8 @@ BakeReport describe(const RefinedMesh& mesh, const Patches& patches, const Solut
   report.buried_element_count = static_cast<std::uint32_t>(std::count(samples.buried.begin(), samples.buried.end(), 1));
   report.degenerate_triangle_count = patches.degenerate_triangle_count;
   report.reflectance_clamped_area = patches.reflectance_clamped_area;
+  report.lamp_count = static_cast<std::uint32_t>(patches.lamps.size());
+  report.glow_share = patches.glow_share;
   report.lit = balance.emitted > 0.0 || !patches.lamps.empty();
   return report;
 }
@@ -84,6 +87,9 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
 
   const EnergyBalance balance = energy_balance(problem, solution, rows);
   result.report = describe(result.mesh, patches, solution, balance, samples);
+  const ExchangeChecks checks = check_exchange(patches, rows);
+  result.report.closure_error = checks.closure_error;
+  result.report.reciprocity_error = checks.reciprocity_error;
   result.report.reached_element_limit = subdivision.reached_limit;
   result.report.visibility = raster ? Visibility::kRaster : Visibility::kRays;
   return result;

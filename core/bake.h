@@ -31,7 +31,7 @@ struct BakeOptions {
   float residual = 0.001F;   ///< stop when this share of the emitted flux is still unshot, (0,1)
   int max_patches = 10'000;  ///< patches that send light; more see finer indirect light
   int lamp_rays = 32;        ///< shadow rays from a sample to all lamps together, where some are hidden
-  std::size_t row_cache_bytes = std::size_t{1} << 30;  ///< memory for rows of form factors
+  std::size_t row_cache_bytes = std::size_t{1} << 30;  ///< memory for rows of form factors: older ones are evicted
   int threads = 0;                                     ///< 0 uses every core; the result does not depend on it
 };
 
@@ -47,6 +47,10 @@ struct BakeReport {
   double escaped_flux = 0.0;               ///< lm that left through openings
   std::uint32_t buried_element_count = 0;  ///< elements that see mostly back faces: their light is their neighbours'
   std::uint32_t degenerate_triangle_count = 0;  ///< triangles without area: kept, but they carry no light
+  double closure_error = 0.0;                   ///< see exchange_checks.h
+  double reciprocity_error = 0.0;               ///< likewise
+  std::uint32_t lamp_count = 0;                 ///< parts of emissive triangles that shadow rays go to
+  double glow_share = 0.0;                      ///< of the emitted flux: what is left to hemicubes, [0,1]
   double reflectance_clamped_area = 0.0;        ///< m2 whose reflectance was above kMaxReflectance
   bool reached_element_limit = false;
   Visibility visibility = Visibility::kRays;  ///< what kAuto chose

@@ -44,6 +44,9 @@ Result<Done> check_options(const Options& options) {
   }
   if (!(options.residual > 0.0 && options.residual < 1.0)) return refuse("--residual", "must lie between 0 and 1");
   if (options.max_patches < 1) return refuse("--max-patches", "must be at least 1");
+  if (options.max_memory != 0 && options.max_memory < (std::uint64_t{64} << 20U)) {
+    return refuse("--max-memory", "must be at least 64M");
+  }
   if (options.threads < 0) return refuse("--threads", "must not be negative");
 
   // Output.

@@ -1,5 +1,7 @@
 #include "plugin/gltf_radiosity.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstring>
 #include <utility>
@@ -29,6 +31,16 @@ radiosity::Visibility visibility_of(VisibilityMethod method) {
   return radiosity::Visibility::kAuto;
 }
 
+/// What an element costs at most: its place in the mesh, its samples and its share of the fit.
+constexpr std::uint64_t kBytesPerElement = 512;
+
+/// Three quarters of what the machine has.
+std::uint64_t default_max_memory() {
+  const long pages = ::sysconf(_SC_PHYS_PAGES), page_bytes = ::sysconf(_SC_PAGESIZE);
+  if (pages <= 0 || page_bytes <= 0) return std::uint64_t{2} << 30U;
+  return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page_bytes) / 4 * 3;
+}
+
 radiosity::BakeOptions bake_options(const Options& options, const ImportedScene& scene, double patch_size) {
   radiosity::BakeOptions result;
   result.subdivide.patch_size = static_cast<float>(patch_size);
@@ -40,6 +52,10 @@ radiosity::BakeOptions bake_options(const Options& options, const ImportedScene&
   result.visibility = visibility_of(options.visibility);
   result.solver =
       options.solver == SolverMethod::kGathering ? radiosity::Solver::kGathering : radiosity::Solver::kProgressive;
+  result.fit = options.fit == FitMethod::kInterpolate ? radiosity::Fit::kInterpolate : radiosity::Fit::kLeastSquares;
+  const std::uint64_t memory = options.max_memory > 0 ? options.max_memory : default_max_memory();
+  result.row_cache_bytes = static_cast<std::size_t>(memory / 2);
+  result.subdivide.max_elements = std::min<std::size_t>(result.subdivide.max_elements, memory / 4 / kBytesPerElement);
   result.residual = static_cast<float>(options.residual);
   result.max_patches = options.max_patches;
   result.threads = options.threads;

@@ -25,6 +25,7 @@ std::string_view version();
 enum class Refine { kNone, kUniform };
 enum class VisibilityMethod { kAuto, kRaster, kRays };
 enum class SolverMethod { kProgressive, kGathering };
+enum class FitMethod { kLeastSquares, kInterpolate };
 enum class Metals { kDiffuse, kBlack };
 enum class LightUnits { kAuto, kSi, kBlender };
 enum class ColorType { kFloat, kU16, kU8 };
@@ -56,6 +57,10 @@ struct Options {
   SolverMethod solver = SolverMethod::kGathering;
   double residual = 0.001;  ///< stop at this share of unshot flux, (0, 1)
   int max_patches = 10'000;
+  FitMethod fit = FitMethod::kLeastSquares;
+  /// Rows of form factors take half of this at most, bytes, and the mesh stops growing in time; 0 is three quarters of
+  /// the machine's memory.
+  std::uint64_t max_memory = 0;
   int threads = 0;  ///< 0: every core
   // Output
   std::optional<double> exposure;  ///< k, m2/cd; none chooses automatically
@@ -97,12 +102,16 @@ struct Report {
   std::uint64_t buried_elements = 0;
   double patch_size = 0.0;  ///< metres, the one used; 0 with Refine::kNone
   double residual = 0.0;
-  double emitted_flux = 0.0;   ///< lm
-  double absorbed_flux = 0.0;  ///< lm
-  double escaped_flux = 0.0;   ///< lm
-  double exposure = 1.0;       ///< k, m2/cd
-  double clipped_share = 0.0;  ///< of the baked area
-  std::string visibility;      ///< "raster" or "rays"
+  double emitted_flux = 0.0;       ///< lm
+  double absorbed_flux = 0.0;      ///< lm
+  double escaped_flux = 0.0;       ///< lm
+  double closure_error = 0.0;      ///< largest difference of a row of form factors from 1
+  double reciprocity_error = 0.0;  ///< mean |A_i F_ij - A_j F_ji| over mean A_i F_ij
+  std::uint64_t lamps = 0;         ///< parts of emissive triangles that get shadow rays
+  double glow_share = 0.0;         ///< of the emitted light: what gets none, [0,1]
+  double exposure = 1.0;           ///< k, m2/cd
+  double clipped_share = 0.0;      ///< of the baked area
+  std::string visibility;          ///< "raster" or "rays"
   std::vector<PhaseReport> phases;
   std::vector<Warning> warnings;
 };

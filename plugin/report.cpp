@@ -23,6 +23,10 @@ void add_figures(const radiosity::BakeReport& bake, Report& report) {
   report.emitted_flux = bake.emitted_flux;
   report.absorbed_flux = bake.absorbed_flux;
   report.escaped_flux = bake.escaped_flux;
+  report.closure_error = bake.closure_error;
+  report.reciprocity_error = bake.reciprocity_error;
+  report.lamps = bake.lamp_count;
+  report.glow_share = bake.glow_share;
   report.visibility = bake.visibility == radiosity::Visibility::kRaster ? "raster" : "rays";
 }
 
@@ -43,6 +47,13 @@ void add_warnings(const radiosity::BakeReport& bake, std::vector<Warning>& warni
   if (bake.buried_element_count > 0) {
     warn("buried-elements", fmt::format("elements inside other objects: {}; they show the light of their neighbours",
                                         bake.buried_element_count));
+  }
+  if (bake.glow_share > 0.01) {
+    warn("lamps-left-to-hemicubes",
+         fmt::format(
+             "{:.0f} % of the emitted light comes from more emissive triangles than get shadow rays; its shadows "
+             "are only as sharp as hemicubes are",
+             100.0 * bake.glow_share));
   }
   if (bake.reflectance_clamped_area > 0.0) {
     warn("reflectance-clamped",
@@ -81,6 +92,10 @@ std::string to_json(const Report& report) {
                {"emittedFlux", report.emitted_flux},
                {"absorbedFlux", report.absorbed_flux},
                {"escapedFlux", report.escaped_flux},
+               {"closureError", report.closure_error},
+               {"reciprocityError", report.reciprocity_error},
+               {"lamps", report.lamps},
+               {"glowShare", report.glow_share},
                {"exposure", report.exposure},
                {"clippedShare", report.clipped_share},
                {"visibility", report.visibility}};

@@ -21,6 +21,8 @@ namespace {
 constexpr Choices<Refine, 2> kRefine{{{"none", Refine::kNone}, {"uniform", Refine::kUniform}}};
 constexpr Choices<VisibilityMethod, 3> kVisibility{
     {{"raster", VisibilityMethod::kRaster}, {"rays", VisibilityMethod::kRays}, {"auto", VisibilityMethod::kAuto}}};
+constexpr Choices<FitMethod, 2> kFit{
+    {{"least-squares", FitMethod::kLeastSquares}, {"interpolate", FitMethod::kInterpolate}}};
 constexpr Choices<SolverMethod, 2> kSolver{
     {{"progressive", SolverMethod::kProgressive}, {"gathering", SolverMethod::kGathering}}};
 constexpr Choices<ColorType, 3> kColorType{
@@ -99,6 +101,15 @@ void add_transport_options(CLI::App& app, Options& options, std::optional<Qualit
       });
   add_choice(app, "--visibility", "What fills the hemicubes: drawing triangles, tracing rays, or the faster of the two",
              options.visibility, kVisibility);
+  add_choice(app, "--fit",
+             "From samples to vertices: the closest light that is linear in each element (least-squares), or the light "
+             "around each vertex (interpolate)",
+             options.fit, kFit);
+  add(app,
+      {"--max-memory", "SIZE", "75 %",
+       "Memory to plan with, as 512M or 8G, at least 64M: half of it holds form factors, older ones are computed again "
+       "when needed; the mesh stops growing in time. Unless given, of what the machine has"},
+      [&options](const std::string& text) { options.max_memory = parse_bytes(text); });
   add_choice(app, "--solver",
              "Shoot from the brightest patch first (progressive), or let all patches gather in turn (gathering)",
              options.solver, kSolver);

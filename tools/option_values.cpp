@@ -78,6 +78,17 @@ std::variant<std::array<double, 3>, std::string> parse_sky(std::string_view text
   return parse_triple(text, {Range{}, Range{}, Range{}});
 }
 
+std::uint64_t parse_bytes(std::string_view text) {
+  constexpr std::string_view kSuffixes = "KMGT";
+  constexpr std::uint64_t kLeast = std::uint64_t{64} << 20U;
+  const std::size_t suffix = text.empty() ? std::string_view::npos : kSuffixes.find(text.back());
+  if (suffix == std::string_view::npos) throw BadValue(fmt::format("'{}' does not end in K, M, G or T", text));
+  const int count = parse_integer(text.substr(0, text.size() - 1), 1, 1 << 20);
+  const std::uint64_t bytes = static_cast<std::uint64_t>(count) << (10U * (suffix + 1));
+  if (bytes < kLeast) throw BadValue(fmt::format("{} is less than 64M", text));
+  return bytes;
+}
+
 std::pair<int, int> parse_size(std::string_view text, int least, int most) {
   const std::vector<std::string_view> parts = split(text, ',');
   if (parts.size() != 2) throw BadValue(fmt::format("'{}' is not two numbers separated by a comma", text));

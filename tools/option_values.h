@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -40,6 +41,9 @@ std::array<double, 3> parse_triple(std::string_view text, const std::array<Range
 
 /// Three numbers that are not negative, or the name of a file: whatever is not numbers separated by commas.
 std::variant<std::array<double, 3>, std::string> parse_sky(std::string_view text);
+
+/// A whole number of bytes with a suffix K, M, G or T (powers of 1024), at least 64M.
+std::uint64_t parse_bytes(std::string_view text);
 
 /// W,H: two whole numbers in [least, most].
 std::pair<int, int> parse_size(std::string_view text, int least, int most);

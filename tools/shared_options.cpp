@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <variant>
-
 #include <filesystem>
 #include <string_view>
+#include <variant>
 
 #include "tools/exit_code.h"
 

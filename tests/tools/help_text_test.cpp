@@ -56,10 +56,10 @@ std::vector<Command> commands() { return {{help_text(), "command-line.md"}, {ver
 TEST(HelpText, DescribesEveryOption) {
   const std::set<std::string> names = matches(help_text(), "\n  (?:-h,)?(--[a-z0-9-]+)");
   const std::set<std::string> expected = {
-      "--refine",   "--patch-size",  "--subdivide", "--sky",         "--sun",        "--no-default-sky",
-      "--metals",   "--quality",     "--hemicube",  "--max-patches", "--residual",   "--visibility",
-      "--solver",   "--threads",     "--exposure",  "--ev100",       "--color-type", "--json",
-      "--progress", "--light-units", "--config",    "--version",     "--help",       "--sky-rotation"};
+      "--refine",      "--patch-size", "--subdivide",   "--sky",      "--sun",         "--no-default-sky", "--metals",
+      "--quality",     "--hemicube",   "--max-patches", "--residual", "--visibility",  "--solver",         "--fit",
+      "--max-memory",  "--threads",    "--exposure",    "--ev100",    "--color-type",  "--json",           "--progress",
+      "--light-units", "--config",     "--version",     "--help",     "--sky-rotation"};
   EXPECT_EQ(names, expected);
 }
 
@@ -80,7 +80,9 @@ TEST(HelpText, StatesTheDefaultsOfTheLibrary) {
       {"--max-patches", fmt::format("{}", library.max_patches)},
       {"--residual", fmt::format("{}", library.residual)},
       {"--visibility", "auto"},
-      {"--solver", "progressive"},
+      {"--solver", "gathering"},
+      {"--fit", "least-squares"},
+      {"--max-memory", "75 %"},
       {"--threads", "0"},
       {"--exposure", "auto"},
       {"--ev100", "none"},
