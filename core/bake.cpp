@@ -57,7 +57,7 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
   Subdivision subdivision = subdivide(scene, options, progress);
   result.mesh = std::move(subdivision.mesh);
   const RayScene rays(scene);
-  const Patches patches = make_patches(rays, {options.max_patches, 4}, progress);
+  const Patches patches = make_patches(rays, {options.max_patches, 2}, progress);
 
   // Visibility. A fit averages over many samples, so their hemicubes are half as wide.
   const bool raster = use_raster(scene, options);

@@ -80,12 +80,12 @@ bool is_two_sided(const Scene& scene, std::uint32_t triangle) {
 
 /// The size of a grid cell that gives few enough groups, metres: splitting them will make more.
 float choose_size(const Scene& scene, std::span<const float> areas, int max_patches) {
-  constexpr double kGroupsPerPatch = 0.6;
+  constexpr double kGroupsPerPatch = 0.8;
   const auto most = std::max(1U, static_cast<std::uint32_t>(kGroupsPerPatch * max_patches));
   const double total_area = std::accumulate(areas.begin(), areas.end(), 0.0);
-  auto size = static_cast<float>(std::sqrt(total_area / (0.5 * max_patches)));
+  auto size = static_cast<float>(std::sqrt(total_area / max_patches));
   // One cell around everything cannot be merged further: as many groups as surfaces and facings.
-  for (const float largest = 4.0F * diagonal(scene); size < largest; size *= 1.15F) {
+  for (const float largest = 4.0F * diagonal(scene); size < largest; size *= 1.1F) {
     if (count_tiles(scene, areas, kTileLength * size) > std::max(kMaxTiles, 2 * areas.size())) continue;
     CellGroups groups(scene, size);
     for (const Tile& tile : make_tiles(scene, areas, kTileLength * size).leaves()) {
@@ -262,7 +262,9 @@ void place_points(const Scene& scene, std::span<const Survey> surveys, int point
     covered[patch] += double{tile.area};
     while (placed[patch] < points_per_patch) {
       const int k = placed[patch];
-      const double wanted = (k + 0.5) / points_per_patch * double{patches.area[patch]};
+      // Starting anew at each patch at half a step, points would always fall into the same of the tiles of a cell.
+      const double start = glm::fract((patch + 0.5) * 0.6180339887498949);
+      const double wanted = (k + start) / points_per_patch * double{patches.area[patch]};
       if (covered[patch] < wanted * (1.0 - 1e-6)) return;
 
       // Several points in one tile: spread them by the R2 sequence (Roberts 2018), folded into the triangle. It runs on

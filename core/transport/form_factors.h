@@ -57,6 +57,11 @@ class RowCache {
   /// Computes those of `patches` that are missing, side by side.
   void fetch(std::span<const std::uint32_t> patches);
   bool holds(std::uint32_t patch) const { return slot_of_patch_.contains(patch); }
+  /// The row of `patch`, or null where it is not at hand. Valid until the next fetch().
+  const FormFactorRow* peek(std::uint32_t patch) const {
+    const auto slot = slot_of_patch_.find(patch);
+    return slot == slot_of_patch_.end() ? nullptr : &slot->second->row;
+  }
   /// The row of `patch`, computed if missing. Valid until the next fetch() or row().
   const FormFactorRow& row(std::uint32_t patch);
 
