@@ -5,15 +5,13 @@
 
 namespace radiosity {
 
-/// Over the rows that are at hand.
 struct ExchangeChecks {
-  double closure_error = 0.0;      ///< largest |1 - sum of a row, sky and backs counted|
-  double reciprocity_error = 0.0;  ///< sum of |A_i F_ij - A_j F_ji| over the sum of A_i F_ij, i and j both at hand.
-                                   ///< Single pairs are noisy where patches are small: 0.9 is usual, and the noise of
-                                   ///< a row averages out; see EnergyBalance
+  double closure_error = 0.0;  ///< largest |1 - sum of a row, sky and backs counted|, over the rows at hand
+  /// Sum of |A_i F_ij - A_j F_ji| over the sum of A_i F_ij, where i and j are 64 regions of the scene: single patches
+  /// differ by noise that a row averages out. 0 where rows have been evicted.
+  double reciprocity_error = 0.0;
 };
 
-/// Rows that are no longer cached are left out.
 ExchangeChecks check_exchange(const Patches& patches, const RowCache& rows);
 
 }  // namespace radiosity
