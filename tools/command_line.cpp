@@ -33,8 +33,8 @@ struct Quality {
   int hemicube = 0;
   int max_patches = 0;
 };
-constexpr Quality kMedium{Options{}.hemicube, Options{}.max_patches};
-constexpr Choices<Quality, 3> kQuality{{{"draft", {8, 4000}}, {"medium", kMedium}, {"high", {32, 60000}}}};
+const Quality kMedium{Options{}.hemicube, Options{}.max_patches};
+const Choices<Quality, 3> kQuality{{{"draft", {8, 4000}}, {"medium", kMedium}, {"high", {32, 60000}}}};
 
 // ---- the options, group by group ----
 

@@ -170,7 +170,7 @@ Lamps::FarView Lamps::view_from_afar(const Group& group, const SurfacePoint& poi
   // All of it below the horizon?
   const glm::vec3 apart = group.middle - point.position;
   const float height = glm::dot(point.normal, apart);
-  if (height <= -group.radius) return {FarView::kNothing, 0.0};
+  if (height <= -group.radius) return {FarView::kHidden, 0.0};
 
   // So far that it counts as one lamp?
   const float distance = glm::length(apart);
@@ -179,10 +179,10 @@ Lamps::FarView Lamps::view_from_afar(const Group& group, const SurfacePoint& poi
   // All of it above the horizon, and seen from the side that shines?
   const float spread = std::sqrt(std::max(0.0F, 1.0F - glm::dot(group.facing, group.facing))) + group.radius / distance;
   const float cosine = -glm::dot(group.facing, apart) / distance;
-  if (!group.two_sided && cosine <= -spread) return {FarView::kNothing, 0.0};
+  if (!group.two_sided && cosine <= -spread) return {FarView::kHidden, 0.0};
   const float there = group.two_sided ? std::abs(cosine) : cosine;
   if (height < group.radius || there < spread) return {FarView::kUnclear, 0.0};
-  return {FarView::kWhole, group.flux * double{height} * double{there} / (double{distance} * distance * distance)};
+  return {FarView::kInView, group.flux * double{height} * double{there} / (double{distance} * distance * distance)};
 }
 
 void Lamps::weigh(const SurfacePoint& point, LampWeights& weights) const {
@@ -207,7 +207,7 @@ void Lamps::weigh(const SurfacePoint& point, LampWeights& weights) const {
       continue;
     }
     const FarView view = view_from_afar(group, point);
-    if (view.share == FarView::kWhole) add(view.weight, index);
+    if (view.share == FarView::kInView) add(view.weight, index);
     if (view.share != FarView::kUnclear) continue;
     open.push_back(group.second_child);
     open.push_back(index + 1);

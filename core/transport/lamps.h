@@ -66,7 +66,7 @@ class Lamps {
 
   /// What a point sees of a group without opening it.
   struct FarView {
-    enum Share : std::uint8_t { kNothing, kUnclear, kWhole } share;
+    enum Share : std::uint8_t { kHidden, kUnclear, kInView } share;
     double weight;  // eye-weighted irradiance of the whole, lx
   };
 
