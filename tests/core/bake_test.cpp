@@ -156,6 +156,18 @@ TEST(Bake, GivesTheSameBytesForAnyNumberOfThreads) {
   }
 }
 
+TEST(Bake, GivesTheSameBytesWhereRowsOfFormFactorsAreEvicted) {
+  BakeOptions options = quick(0.2F);
+  options.row_cache_bytes = 100'000;
+  for (const Solver solver : {Solver::kGathering, Solver::kProgressive}) {
+    options.solver = solver;
+    BakeOptions unlimited = options;
+    unlimited.row_cache_bytes = BakeOptions{}.row_cache_bytes;
+    EXPECT_TRUE(same_bytes(bake(test::cornell_box(), unlimited, {}).irradiance,
+                           bake(test::cornell_box(), options, {}).irradiance));
+  }
+}
+
 TEST(Bake, GivesTheSameBytesByDefaultForAnyNumberOfThreads) {
   const Scene scene = test::wall_through_floor(0.5F);
   BakeOptions options;

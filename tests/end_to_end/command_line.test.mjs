@@ -88,7 +88,8 @@ test('--exposure scales the colours and is written into the file', () => {
 test('the report accounts for the light: what was emitted was absorbed or escaped', () => {
   for (const scene of ['cornell_box', 'white_furnace_50', 'draco_box']) {
     const report = bake(test_asset(`${scene}.glb`), target('balance.glb'), '--refine', 'none')
-    const { emittedFlux, absorbedFlux, escapedFlux, residual } = report
+    const { emittedFlux, absorbedFlux, escapedFlux, residual, closureError, reciprocityError, glowShare } = report
+    assert.ok(closureError < 1e-5 && reciprocityError < 0.1 && glowShare === 0, `${scene}: ${JSON.stringify(report)}`)
     const lost = Math.abs(emittedFlux - absorbedFlux - escapedFlux)
     assert.ok(emittedFlux > 0 && lost <= (residual + 0.02) * emittedFlux, `${scene}: ${JSON.stringify(report)}`)
   }

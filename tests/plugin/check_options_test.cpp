@@ -56,6 +56,14 @@ TEST(CheckOptions, TheSolverComesToAnEnd) {
   EXPECT_EQ(refused([](Options& o) { o.threads = -1; }), "--threads");
 }
 
+TEST(CheckOptions, MemoryIsEnoughToStart) {
+  Options options;
+  options.max_memory = (std::uint64_t{64} << 20U) - 1;
+  EXPECT_FALSE(check_options(options));
+  options.max_memory = std::uint64_t{64} << 20U;
+  EXPECT_TRUE(check_options(options));
+}
+
 TEST(CheckOptions, ExposureIsPositive) {
   for (const double k : {0.0, -1.0, kInfinity}) {
     EXPECT_EQ(refused([&](Options& o) { o.exposure = k; }), "--exposure") << k;

@@ -41,7 +41,7 @@ TEST(DecodeHdr, ReadsRunLengths) {
   const auto image = decode_hdr(bytes, "sky.hdr");
   ASSERT_TRUE(image) << image.error().text();
   EXPECT_EQ(image->texels, std::vector<Rgb>(16, Rgb(1.0F, 0.5F, 0.25F)));
-  bytes.resize(bytes.size() - 1);
+  bytes.pop_back();
   EXPECT_EQ(fault_of(bytes), "sky.hdr: the HDR image is broken");
 }
 

@@ -116,15 +116,18 @@ TEST(CommandLine, ASkyIsALuminanceOrAFile) {
 }
 
 TEST(CommandLine, ReadsTheOptionsOfTheTransport) {
-  const Options options = parse_bake({"--hemicube", "64", "--visibility", "raster", "--solver", "gathering",
-                                      "--residual", "0.01", "--max-patches", "99", "--threads", "3"})
-                              .options;
+  const Options options =
+      parse_bake({"--hemicube", "64", "--visibility", "raster", "--solver", "gathering", "--residual", "0.01",
+                  "--max-patches", "99", "--threads", "3", "--fit", "interpolate", "--max-memory", "2G"})
+          .options;
   EXPECT_EQ(options.hemicube, 64);
   EXPECT_EQ(options.visibility, VisibilityMethod::kRaster);
   EXPECT_EQ(options.solver, SolverMethod::kGathering);
   EXPECT_EQ(options.residual, 0.01);
   EXPECT_EQ(options.max_patches, 99);
   EXPECT_EQ(options.threads, 3);
+  EXPECT_EQ(options.fit, FitMethod::kInterpolate);
+  EXPECT_EQ(options.max_memory, std::uint64_t{2} << 30U);
 }
 
 TEST(CommandLine, ReadsTheOptionsOfTheOutput) {

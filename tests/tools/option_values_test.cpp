@@ -65,6 +65,16 @@ TEST(ParseSubdivide, CutsAtTheLastEqualsSign) {
   }
 }
 
+TEST(ParseBytes, CountsInPowersOf1024AndWantsASuffix) {
+  EXPECT_EQ(parse_bytes("64M"), std::uint64_t{64} << 20U);
+  EXPECT_EQ(parse_bytes("65536K"), std::uint64_t{64} << 20U);
+  EXPECT_EQ(parse_bytes("8G"), std::uint64_t{8} << 30U);
+  EXPECT_EQ(parse_bytes("1T"), std::uint64_t{1} << 40U);
+  for (const std::string_view text : {"", "G", "8", "8g", "8GB", "-1G", "1.5G", "0G", "63M", "9999999999G"}) {
+    EXPECT_THROW(parse_bytes(text), BadValue) << text;
+  }
+}
+
 TEST(ParseSun, KeepsAnglesAndLightInRange) {
   const Sun sun = parse_sun("40,-120,80000");
   EXPECT_EQ(sun.elevation_degrees, 40.0);
