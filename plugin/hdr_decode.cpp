@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <memory>
 
 // All of stb_image is local to this file, and only its HDR reader: libdraco exports an older stb_image of its own.
@@ -29,7 +28,7 @@ struct Source {
     auto& source = *static_cast<Source*>(user);
     const std::size_t count = std::min(static_cast<std::size_t>(wanted), source.left.size());
     source.truncated = source.truncated || count == 0;
-    std::memcpy(to, source.left.data(), count);
+    std::copy_n(source.left.begin(), count, to);
     source.left = source.left.subspan(count);
     return static_cast<int>(count);
   }
