@@ -16,10 +16,6 @@ constexpr float kOffsetPerDiagonal = 2e-5F;
 /// point computed from them is off by a few such steps.
 constexpr float kOffsetInRoundingSteps = 8.0F;
 
-bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-bool is_light(const Rgb& v) { return is_finite(v) && v.x >= 0.0F && v.y >= 0.0F && v.z >= 0.0F; }
-
 bool is_share(const Rgb& v) { return is_light(v) && v.x <= 1.0F && v.y <= 1.0F && v.z <= 1.0F; }
 
 std::string place(const char* array, std::size_t index) {

@@ -6,15 +6,12 @@
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
+#include "core/photometry.h"
+
 namespace radiosity {
 namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
-
-bool is_light(const Rgb& v) {
-  const auto fine = [](float band) { return std::isfinite(band) && band >= 0.0F; };
-  return fine(v.x) && fine(v.y) && fine(v.z);
-}
 
 /// Latitude of the upper edge of a row, rad.
 double latitude_above(const Sky& sky, int row) {
@@ -72,7 +69,6 @@ glm::mat3 map_turned_by(double degrees) {
 
 std::size_t texel_towards(const Sky& sky, const glm::vec3& direction) {
   const glm::vec3 d = sky.map_from_world * direction;
-  constexpr float kPi = std::numbers::pi_v<float>;
   const float u = std::atan2(d.z, d.x) / (2.0F * kPi) + 0.5F;
   const float v = 0.5F - std::asin(std::clamp(d.y, -1.0F, 1.0F)) / kPi;
   const int column = std::clamp(static_cast<int>(u * static_cast<float>(sky.width)), 0, sky.width - 1);

@@ -19,7 +19,7 @@
 namespace gltf_radiosity {
 namespace {
 
-constexpr const char* kExtension = "KHR_draco_mesh_compression";
+constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
 constexpr std::uint64_t kIndices = std::numeric_limits<std::uint64_t>::max();  ///< stands for a blob's triangles
 
 /// What an accessor was filled with: an attribute (its unique id) of the blob in a bufferView.
@@ -84,7 +84,7 @@ class DracoDecoder {
 
   /// `primitive` has the extension. Leaves it with plain accessors.
   Result<Done> decode(Json& primitive, const std::string& place) {
-    const Json extension = primitive["extensions"][kExtension];
+    const Json extension = primitive["extensions"][kDracoExtension];
     const auto view = extension["bufferView"].get<std::uint64_t>();
     if (primitive.value("mode", 4) != 4) return bad_input(place, "Draco is only supported for triangle lists");
     if (!primitive.contains("indices")) return bad_input(place, "is compressed with Draco but has no indices");
@@ -101,7 +101,7 @@ class DracoDecoder {
       }
     }
     Json& extensions = primitive["extensions"];
-    extensions.erase(kExtension);
+    extensions.erase(kDracoExtension);
     if (extensions.empty()) primitive.erase("extensions");
     return Done{};
   }
@@ -220,7 +220,7 @@ void remove_name(Json& root, const char* array) {
   if (it == root.end()) return;
   Json kept = Json::array();
   for (const Json& name : *it) {
-    if (name != kExtension) kept.push_back(name);
+    if (name != kDracoExtension) kept.push_back(name);
   }
   if (kept.empty()) {
     root.erase(array);
@@ -239,7 +239,7 @@ Result<Done> decode_draco(Document& document) {
     const std::size_t primitive_count = array_of(document.json["meshes"][i], "primitives").size();
     for (std::size_t j = 0; j < primitive_count; ++j) {
       Json& primitive = document.json["meshes"][i]["primitives"][j];
-      if (extension_of(primitive, kExtension) == nullptr) continue;
+      if (extension_of(primitive, kDracoExtension) == nullptr) continue;
       any = true;
       if (auto decoded = decoder.decode(primitive, place_of_primitive(i, j)); !decoded) return decoded.error();
     }

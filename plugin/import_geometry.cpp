@@ -9,13 +9,14 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/finite.h"
 #include "plugin/accessor_view.h"
 #include "plugin/split_creases.h"
 
 namespace gltf_radiosity {
 namespace {
 
-bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+using radiosity::is_finite;
 
 /// An accessor of `Size` floats per element; missing components are `fill`.
 template <int Size>

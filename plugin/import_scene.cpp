@@ -14,6 +14,7 @@
 #include <set>
 #include <utility>
 
+#include "core/finite.h"
 #include "plugin/accessor_view.h"
 #include "plugin/check_document.h"
 #include "plugin/import_geometry.h"
@@ -24,11 +25,10 @@
 namespace gltf_radiosity {
 namespace {
 
+using radiosity::is_finite;
 using radiosity::Rgb;
 
 constexpr std::size_t kMaxCount = radiosity::kNothing - 1;
-
-bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// Turns normals as the inverse transpose does, also where there is no inverse: the cofactors, with the sign of the
 /// determinant.

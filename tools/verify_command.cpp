@@ -90,11 +90,11 @@ void add_output_options(CLI::App& app, VerifyCommand& command) {
 }
 
 /// The parser and where its values go. Not movable: the parser's callbacks point into it.
-struct Parser {
+struct VerifyParser {
   VerifyCommand command;
   CLI::App app{std::string(kVerifyDescription), "gltf-radiosity verify"};
 
-  Parser() {
+  VerifyParser() {
     app.formatter(std::make_shared<HelpFormatter>());
     app.footer(std::string(kVerifyFooter));
     add_files(app, command);
@@ -105,11 +105,11 @@ struct Parser {
     app.option_defaults()->group("Other");
     add_version_and_help(app);
   }
-  Parser(const Parser&) = delete;
-  Parser& operator=(const Parser&) = delete;
+  VerifyParser(const VerifyParser&) = delete;
+  VerifyParser& operator=(const VerifyParser&) = delete;
 };
 
-void finish(const VerifyCommand& command) {
+void finish_verify(const VerifyCommand& command) {
   if (command.input.empty() || command.output.empty()) throw CLI::ValidationError("IN and OUT must not be empty");
   const std::array scenes{command.input, command.output};
   if (command.json != "-") check_that_differs("--json", command.json, scenes);
@@ -122,14 +122,14 @@ bool is_verify_command(std::span<const char* const> arguments) {
 }
 
 std::variant<VerifyCommand, Ending> parse_verify_command(std::span<const char* const> arguments) {
-  Parser parser;
+  VerifyParser parser;
   const auto after_verify = arguments.subspan(1);
-  if (auto ending = parse_with(parser.app, after_verify, [&parser] { finish(parser.command); })) {
+  if (auto ending = parse_with(parser.app, after_verify, [&parser] { finish_verify(parser.command); })) {
     return std::move(*ending);
   }
   return std::move(parser.command);
 }
 
-std::string verify_help_text() { return Parser().app.help(); }
+std::string verify_help_text() { return VerifyParser().app.help(); }
 
 }  // namespace gltf_radiosity::tools

@@ -19,12 +19,6 @@ using OpenMesh::VertexHandle;
 /// vertex for each triangle it adds there: 20 000 in a fan, in any order, took 6 s, and take 0.1 s so.
 constexpr std::uint32_t kMostJoinedAtVertex = 256;
 
-/// The corner at the end of a halfedge, as the triangle left of the halfedge knows it.
-struct Corner {
-  std::uint32_t vertex = kNothing;
-  Barycentrics at{0.0F};
-};
-
 std::uint32_t number_of(const OpenMesh::BaseHandle& handle) { return static_cast<std::uint32_t>(handle.idx()); }
 
 EdgeHandle edge_of(std::uint32_t edge) { return EdgeHandle(static_cast<int>(edge)); }
@@ -51,6 +45,12 @@ void silence_openmesh() {
 }  // namespace
 
 struct OpenMeshBridge::Net {
+  /// The corner at the end of a halfedge, as the triangle left of the halfedge knows it.
+  struct Corner {
+    std::uint32_t vertex = kNothing;
+    Barycentrics at{0.0F};
+  };
+
   Mesh mesh;
   OpenMesh::HPropHandleT<Corner> corner;
   OpenMesh::FPropHandleT<std::uint32_t> triangle;
@@ -233,7 +233,7 @@ void OpenMeshBridge::halve(std::uint32_t edge, std::uint32_t position_class, con
   Net& net = *net_;
   struct Half {
     HalfedgeHandle after, before;
-    Corner start, middle, end;
+    Net::Corner start, middle, end;
     std::uint32_t triangle = kNothing;
   };
   std::array<Half, 2> halves;
@@ -305,7 +305,7 @@ void OpenMeshBridge::write_elements(RefinedMesh& mesh) const {
     mesh.triangle_of_element[element] = triangle;
     HalfedgeHandle halfedge = net.mesh.halfedge_handle(face);
     for (int i = 0; i < 3; ++i) {
-      const Corner& corner = net.mesh.property(net.corner, halfedge);
+      const Net::Corner& corner = net.mesh.property(net.corner, halfedge);
       mesh.elements[element][i] = corner.vertex;
       mesh.part_of_element[element].corner[i] = corner.at;
       halfedge = net.mesh.next_halfedge_handle(halfedge);

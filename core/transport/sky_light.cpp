@@ -25,10 +25,10 @@ void add_sky(const SmoothSky& sky, RowCache& rows, std::vector<Rgb>& direct, con
   if (sky.is_black()) return;
   std::vector<std::uint32_t> order(rows.patch_count());
   std::iota(order.begin(), order.end(), 0U);
-  constexpr std::size_t kRowsAtOnce = 256;
-  for (std::size_t first = 0; first < order.size(); first += kRowsAtOnce) {
+  constexpr std::size_t kPatchesAtOnce = 256;
+  for (std::size_t first = 0; first < order.size(); first += kPatchesAtOnce) {
     progress.update("sky", static_cast<double>(first) / static_cast<double>(order.size()));
-    const std::size_t count = std::min(kRowsAtOnce, order.size() - first);
+    const std::size_t count = std::min(kPatchesAtOnce, order.size() - first);
     rows.fetch(std::span(order).subspan(first, count));
     for (std::size_t i = first; i < first + count; ++i) {
       const FormFactorRow& row = rows.row(order[i]);

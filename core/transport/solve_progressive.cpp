@@ -11,7 +11,7 @@ namespace {
 
 /// Rows computed side by side when the next shooter's is missing; a constant, so that evictions do not depend on
 /// threads.
-constexpr std::size_t kRowsAtOnce = 32;
+constexpr std::size_t kShootersAtOnce = 32;
 
 /// A closed room of reflectance 0.98 needs a few hundred shots per patch; beyond this something is wrong.
 constexpr std::uint32_t kMaxShotsPerPatch = 2000;
@@ -74,7 +74,7 @@ void even_out(const Patches& patches, std::span<const glm::dvec3> first, std::sp
   constexpr int kSweeps = 3;
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (std::size_t k = 0; k < shooters.size(); ++k) {
-      if (k % kRowsAtOnce == 0) rows.fetch(shooters.subspan(k, std::min(kRowsAtOnce, shooters.size() - k)));
+      if (k % kShootersAtOnce == 0) rows.fetch(shooters.subspan(k, std::min(kShootersAtOnce, shooters.size() - k)));
       const std::uint32_t i = shooters[k];
       const FormFactorRow& row = rows.row(i);
       irradiance[i] = glm::dvec3(0.0);
@@ -125,7 +125,7 @@ Solution solve_progressive(const SolveProblem& problem, RowCache& rows, const Pr
 
     // The patch with the most unshot flux sends it: by reciprocity patch j gets F_ij A_i / A_j of its radiosity.
     const std::uint32_t shooter = unshot.brightest();
-    if (!rows.holds(shooter)) rows.fetch(unshot.next_without_row(rows, kRowsAtOnce));
+    if (!rows.holds(shooter)) rows.fetch(unshot.next_without_row(rows, kShootersAtOnce));
     const FormFactorRow& row = rows.row(shooter);
     const glm::dvec3 sent = unshot.take(shooter) * double{patches.area[shooter]};
     for (std::size_t k = 0; k < row.patch.size(); ++k) {

@@ -16,7 +16,6 @@ namespace {
 using test::sky_of;
 using testing::HasSubstr;
 
-constexpr double kPi = std::numbers::pi;
 
 /// A map whose texels are told apart by their red band.
 Sky numbered_sky(int width) {
@@ -26,7 +25,7 @@ Sky numbered_sky(int width) {
 }
 
 glm::vec3 at_azimuth(double degrees) {
-  const double angle = degrees * kPi / 180.0;
+  const double angle = degrees * std::numbers::pi / 180.0;
   return {std::sin(angle), 0.0, std::cos(angle)};
 }
 
@@ -84,9 +83,9 @@ TEST(Sky, TexelsFillTheSphere) {
     all += texel_vector(sky, texel);
     if (texel < sky.map.size() / 2) above += texel_vector(sky, texel);
   }
-  EXPECT_NEAR(angle, 4.0 * kPi, 1e-12);
+  EXPECT_NEAR(angle, 4.0 * std::numbers::pi, 1e-12);
   EXPECT_NEAR(glm::length(all), 0.0, 1e-12);
-  EXPECT_NEAR(glm::length(above - glm::dvec3(0.0, kPi, 0.0)), 0.0, 1e-12)
+  EXPECT_NEAR(glm::length(above - glm::dvec3(0.0, std::numbers::pi, 0.0)), 0.0, 1e-12)
       << "the irradiance from half a sphere is pi L";
 }
 

@@ -4,15 +4,15 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "core/photometry.h"
 #include "tests/plugin/bake_by_hand.h"
 
 namespace gltf_radiosity {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
-constexpr float kTolerance = 2e-3F;  // 8-bit sRGB texels
+using radiosity::kPi;
+constexpr float kTexelTolerance = 2e-3F;  // 8-bit sRGB texels
 
 /// A unit square of one material under 2 pi lx: white shows 2 cd/m2.
 struct Square {
@@ -41,7 +41,7 @@ struct Square {
 void expect_everywhere(const VertexColors& colors, const glm::vec4& expected) {
   ASSERT_FALSE(colors.unexposed.empty());
   for (const glm::vec4& color : colors.unexposed) {
-    for (int c = 0; c < 4; ++c) EXPECT_NEAR(color[c], expected[c], kTolerance) << "component " << c;
+    for (int c = 0; c < 4; ++c) EXPECT_NEAR(color[c], expected[c], kTexelTolerance) << "component " << c;
   }
 }
 
@@ -69,12 +69,12 @@ TEST(ExportColors, OldColoursMultiplyTheReflectance) {
   Square square;
   square.old_colors = {{1, 1, 1, 1}, {1, 1, 1, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}};
   const VertexColors colors = square.colors();
-  EXPECT_NEAR(colors.unexposed[0].x, 2.0F, kTolerance);
-  EXPECT_NEAR(colors.unexposed[2].x, 0.0F, kTolerance);
-  EXPECT_NEAR(colors.unexposed[1].y, 2.0F, kTolerance);
+  EXPECT_NEAR(colors.unexposed[0].x, 2.0F, kTexelTolerance);
+  EXPECT_NEAR(colors.unexposed[2].x, 0.0F, kTexelTolerance);
+  EXPECT_NEAR(colors.unexposed[1].y, 2.0F, kTexelTolerance);
   float sum = 0.0F;  // of the nine vertices three are white, three in between, three black
   for (const glm::vec4& color : colors.unexposed) sum += color.x;
-  EXPECT_NEAR(sum, 9.0F, 9 * kTolerance);
+  EXPECT_NEAR(sum, 9.0F, 9 * kTexelTolerance);
 }
 
 TEST(ExportColors, EmissionIsAdded) {

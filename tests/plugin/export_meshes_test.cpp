@@ -16,7 +16,7 @@ namespace {
 constexpr radiosity::Rgb kLight(1.0F);
 
 /// The only primitive of a builder's only node, cut `levels` times, as a reader of the file sees it.
-struct Exported {
+struct ExportedPrimitive {
   Document document;
   Json primitive;
 
@@ -37,7 +37,7 @@ struct Exported {
   }
 };
 
-Exported export_first(const GltfBuilder& builder, int levels) {
+ExportedPrimitive export_first(const GltfBuilder& builder, int levels) {
   HandBake hand = bake_by_hand(builder, levels, kLight);
   const auto refined = split_by_instance(hand.bake.mesh, hand.scene);
   Json primitive = hand.document.json["meshes"][0]["primitives"][0];
@@ -52,7 +52,7 @@ GltfBuilder one_mesh(const PrimitiveParts& parts) {
   return builder;
 }
 
-glm::vec3 area_vector(const Exported& exported) {
+glm::vec3 area_vector(const ExportedPrimitive& exported) {
   const std::vector<glm::vec3> positions = exported.positions();
   const std::vector<std::uint32_t> indices = exported.indices();
   glm::vec3 sum(0.0F);
@@ -106,7 +106,7 @@ TEST(ExportMeshes, OldVerticesKeepTheirBytes) {
   parts.positions[2] = {1.0F / 3.0F, -0.0F, 1e-7F};
   parts.normals[1] = {0.1F, 0.9F, 0.123456F};
   const GltfBuilder builder = one_mesh(parts);
-  const Exported exported = export_first(builder, 2);
+  const ExportedPrimitive exported = export_first(builder, 2);
   for (const char* semantic : {"POSITION", "NORMAL", "TEXCOORD_0"}) {
     const Document before = builder.document();
     const RawAccessor old =
@@ -118,7 +118,7 @@ TEST(ExportMeshes, OldVerticesKeepTheirBytes) {
 }
 
 TEST(ExportMeshes, AttributesStayLinearOverTheSurface) {
-  const Exported exported = export_first(one_mesh(unit_square()), 3);
+  const ExportedPrimitive exported = export_first(one_mesh(unit_square()), 3);
   const std::vector<glm::vec3> positions = exported.positions();
   const std::vector<float> texcoords = as_floats(exported.attribute("TEXCOORD_0"));
   for (std::size_t v = 0; v < positions.size(); ++v) {
@@ -138,7 +138,7 @@ TEST(ExportMeshes, AMirroredNodeKeepsTheWindingOfItsMesh) {
 }
 
 TEST(ExportMeshes, BoundsOfPositionsAreGiven) {
-  const Exported exported = export_first(one_mesh(unit_square()), 1);
+  const ExportedPrimitive exported = export_first(one_mesh(unit_square()), 1);
   EXPECT_EQ(exported.accessor("POSITION")["min"], Json::array({0.0, 0.0, 0.0}));
   EXPECT_EQ(exported.accessor("POSITION")["max"], Json::array({1.0, 0.0, 1.0}));
   EXPECT_FALSE(exported.accessor("NORMAL").contains("min"));
@@ -146,9 +146,9 @@ TEST(ExportMeshes, BoundsOfPositionsAreGiven) {
 
 TEST(ExportMeshes, IndicesAreAsWideAsTheyMustBe) {
   // Cut n times a square has (2^n + 1)^2 vertices: 16641 and 66049.
-  const Exported narrow = export_first(one_mesh(unit_square()), 7);
+  const ExportedPrimitive narrow = export_first(one_mesh(unit_square()), 7);
   EXPECT_EQ(narrow.document.json["accessors"][narrow.primitive["indices"].get<std::size_t>()]["componentType"], 5123);
-  const Exported wide = export_first(one_mesh(unit_square()), 8);
+  const ExportedPrimitive wide = export_first(one_mesh(unit_square()), 8);
   EXPECT_EQ(wide.document.json["accessors"][wide.primitive["indices"].get<std::size_t>()]["componentType"], 5125);
   const std::vector<std::uint32_t> indices = wide.indices();
   EXPECT_EQ(*std::max_element(indices.begin(), indices.end()), 66048U);
@@ -158,7 +158,7 @@ TEST(ExportMeshes, AStripBecomesTriangles) {
   PrimitiveParts parts = unit_square();
   parts.indices = {0, 1, 3, 2};
   parts.mode = 5;
-  const Exported exported = export_first(one_mesh(parts), 1);
+  const ExportedPrimitive exported = export_first(one_mesh(parts), 1);
   EXPECT_EQ(exported.primitive["mode"], 4);
   EXPECT_EQ(exported.indices().size(), 24U);
   EXPECT_LT(glm::distance(area_vector(exported), glm::vec3(0, 1, 0)), 1e-6F);
@@ -177,7 +177,7 @@ TEST(ExportMeshes, MorphTargetsAreInterpolated) {
   const std::size_t deltas = builder.add_accessor(std::vector<glm::vec3>{{0, 0, 0}, {0, 2, 0}, {0, 4, 0}, {0, 6, 0}});
   primitive["targets"] = Json::array({Json{{"POSITION", deltas}, {"NORMAL", deltas}}});
   builder.add_node(builder.add_mesh(Json::array({primitive})));
-  const Exported exported = export_first(builder, 1);
+  const ExportedPrimitive exported = export_first(builder, 1);
   for (const char* semantic : {"POSITION", "NORMAL"}) {
     const std::vector<float> values =
         as_floats(read_accessor(exported.document, exported.primitive["targets"][0][semantic].get<std::size_t>()));
@@ -203,7 +203,7 @@ TEST(ExportMeshes, SparseSourcesAreWrittenWhole) {
       {"values", {{"bufferView", builder.add_buffer_view(value)}}}};
   primitive["attributes"]["TEXCOORD_0"] = base;
   builder.add_node(builder.add_mesh(Json::array({primitive})));
-  const Exported exported = export_first(builder, 1);
+  const ExportedPrimitive exported = export_first(builder, 1);
   EXPECT_FALSE(exported.accessor("TEXCOORD_0").contains("sparse"));
   const std::vector<float> values = as_floats(exported.attribute("TEXCOORD_0"));
   EXPECT_EQ(values[4], 0.5F);
@@ -217,7 +217,7 @@ TEST(ExportMeshes, JointsAndWeightsAreMerged) {
   primitive["attributes"]["JOINTS_0"] = builder.add_accessor(joints, 5121, "VEC4", 4);
   primitive["attributes"]["WEIGHTS_0"] = builder.add_accessor(std::vector<glm::vec4>(4, glm::vec4(1, 0, 0, 0)));
   builder.add_node(builder.add_mesh(Json::array({primitive})));
-  const Exported exported = export_first(builder, 1);
+  const ExportedPrimitive exported = export_first(builder, 1);
   const std::vector<std::uint32_t> joint = as_indices(exported.attribute("JOINTS_0"));
   const std::vector<float> weight = as_floats(exported.attribute("WEIGHTS_0"));
   const std::vector<glm::vec3> positions = exported.positions();
@@ -246,7 +246,7 @@ TEST(ExportMeshes, QuantizedPositionsKeepTheirType) {
   builder.json["extensionsUsed"] = Json::array({"KHR_mesh_quantization"});
   primitive["attributes"]["POSITION"] = accessor;
   builder.add_node(builder.add_mesh(Json::array({primitive})));
-  const Exported exported = export_first(builder, 1);
+  const ExportedPrimitive exported = export_first(builder, 1);
   EXPECT_EQ(exported.attribute("POSITION").component, ComponentType::kI16);
   EXPECT_EQ(exported.accessor("POSITION")["max"], Json::array({100, 0, 100}));
   EXPECT_THAT(exported.positions(), testing::Contains(glm::vec3(50, 0, 50)));
@@ -256,7 +256,7 @@ TEST(ExportMeshes, ColorsAreLeftToTheirOwnExporter) {
   PrimitiveParts parts = unit_square();
   parts.colors.assign(4, glm::vec4(1.0F));
   const GltfBuilder builder = one_mesh(parts);
-  const Exported exported = export_first(builder, 1);
+  const ExportedPrimitive exported = export_first(builder, 1);
   EXPECT_EQ(exported.primitive["attributes"]["COLOR_0"],
             builder.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"]);
 }
@@ -275,7 +275,7 @@ TEST(ExportMeshes, VerticesSplitForFlatShadingRepeatTheirSource) {
   Json primitive = document.json["meshes"][0]["primitives"][0];
   export_geometry(document, added, instance, refined, primitive);
   document.buffers.push_back(added.bytes());
-  const Exported exported{document, primitive};
+  const ExportedPrimitive exported{document, primitive};
   EXPECT_EQ(exported.positions()[3], parts.positions[0]);
   EXPECT_EQ(exported.positions()[5], parts.positions[3]);
   EXPECT_THAT(exported.indices(), testing::ElementsAre(0, 1, 2, 3, 4, 5));
@@ -286,7 +286,7 @@ TEST(ExportMeshes, OneAccessorUsedTwiceStaysOne) {
   Json primitive = builder.primitive(unit_square());
   primitive["attributes"]["TEXCOORD_1"] = primitive["attributes"]["TEXCOORD_0"];
   builder.add_node(builder.add_mesh(Json::array({primitive})));
-  const Exported exported = export_first(builder, 1);
+  const ExportedPrimitive exported = export_first(builder, 1);
   EXPECT_EQ(exported.primitive["attributes"]["TEXCOORD_1"], exported.primitive["attributes"]["TEXCOORD_0"]);
 }
 

@@ -61,7 +61,7 @@ std::vector<std::uint8_t> pixels_of(const Bytes& bytes) {
   return pixels ? pixels->rgba : std::vector<std::uint8_t>();
 }
 
-std::string verdict(const Bytes& bytes) {
+std::string image_verdict(const Bytes& bytes) {
   const auto pixels = decode_image(bytes, "images[0]");
   return pixels ? "fine" : pixels.error().text();
 }
@@ -117,10 +117,10 @@ TEST(ImageDecode, Webp) {
 TEST(ImageDecode, TruncatedImagesAreRefused) {
   const Bytes png = encode_png(3, 2, std::vector<std::uint8_t>(24, 9));
   for (std::size_t size = 0; size + 16 < png.size(); ++size) {
-    EXPECT_NE(verdict({png.begin(), png.begin() + static_cast<std::ptrdiff_t>(size)}), "fine") << size;
+    EXPECT_NE(image_verdict({png.begin(), png.begin() + static_cast<std::ptrdiff_t>(size)}), "fine") << size;
   }
   const Bytes jpeg = encode_jpeg(JCS_RGB, 3, {200, 100, 50});
-  EXPECT_EQ(verdict({jpeg.begin(), jpeg.begin() + 30}), "images[0]: the JPEG image is broken or too large");
+  EXPECT_EQ(image_verdict({jpeg.begin(), jpeg.begin() + 30}), "images[0]: the JPEG image is broken or too large");
 }
 
 TEST(ImageDecode, FlippedBytesNeverCrash) {
@@ -139,12 +139,12 @@ TEST(ImageDecode, FlippedBytesNeverCrash) {
 TEST(ImageDecode, HugeSizesAreRefusedBeforeMemoryIsTaken) {
   Bytes png = encode_png(3, 2, std::vector<std::uint8_t>(24, 9));
   png[16] = 0x7f;  // width, the checksum no longer fits either
-  EXPECT_EQ(verdict(png), "images[0]: the PNG image is broken or too large");
+  EXPECT_EQ(image_verdict(png), "images[0]: the PNG image is broken or too large");
 }
 
 TEST(ImageDecode, OtherFormatsAreNamed) {
-  EXPECT_EQ(verdict({0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb}), "images[0]: KTX2 textures are not supported");
-  EXPECT_EQ(verdict({}), "images[0]: is neither PNG, JPEG nor WebP");
+  EXPECT_EQ(image_verdict({0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb}), "images[0]: KTX2 textures are not supported");
+  EXPECT_EQ(image_verdict({}), "images[0]: is neither PNG, JPEG nor WebP");
 }
 
 }  // namespace

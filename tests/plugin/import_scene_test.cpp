@@ -16,7 +16,7 @@ namespace {
 
 using radiosity::Rgb;
 
-constexpr float kTolerance = 1e-5F;
+constexpr float kRounding = 1e-5F;
 
 struct Imported {
   ImportedScene imported;
@@ -67,7 +67,7 @@ TEST(ImportScene, TransformsAreAppliedFromTheRootDown) {
   builder.add_node(builder.add_mesh(unit_square()), {{"scale", {2.0, 1.0, 1.0}}}, root);
   const Imported result = import(builder);
   // (1, 0, 0) is scaled to (2, 0, 0), turned about y to (0, 0, -2) and moved.
-  EXPECT_NEAR(glm::distance(result.scene().positions[3], glm::vec3(10, 0, -2)), 0.0F, kTolerance);
+  EXPECT_NEAR(glm::distance(result.scene().positions[3], glm::vec3(10, 0, -2)), 0.0F, kRounding);
   EXPECT_EQ(result.imported.instances[0].node, 1U);
 }
 
@@ -84,7 +84,7 @@ TEST(ImportScene, NormalsTurnWithTheInverseTranspose) {
   for (glm::vec3& normal : parts.normals) normal = {half, half, 0};
   builder.add_node(builder.add_mesh(parts), {{"scale", {2.0, 1.0, 1.0}}});
   const glm::vec3 normal = import(builder).scene().normals[0];
-  EXPECT_NEAR(glm::distance(normal, glm::normalize(glm::vec3(0.5F, 1.0F, 0.0F))), 0.0F, kTolerance);
+  EXPECT_NEAR(glm::distance(normal, glm::normalize(glm::vec3(0.5F, 1.0F, 0.0F))), 0.0F, kRounding);
 }
 
 TEST(ImportScene, AMirroredInstanceIsTurnedBack) {
@@ -278,8 +278,8 @@ TEST(ImportScene, VertexColorsMultiplyOnlyWhereTheyAre) {
   EXPECT_FALSE(result.scene().surfaces[result.scene().surface_of_triangle[0]].varies);
   EXPECT_EQ(radiosity::mean_reflectance(result.scene(), 2, {}), Rgb(0.5F, 0.0F, 0.0F));
   const Rgb mixed = radiosity::mean_reflectance(result.scene(), 3, {});
-  EXPECT_NEAR(mixed.x, 0.5F * 2 / 3, kTolerance);
-  EXPECT_NEAR(mixed.y, 0.5F * 1 / 3, kTolerance);
+  EXPECT_NEAR(mixed.x, 0.5F * 2 / 3, kRounding);
+  EXPECT_NEAR(mixed.y, 0.5F * 1 / 3, kRounding);
   EXPECT_EQ(result.imported.vertex_colors[0], 1.0F) << "ones where there is no COLOR_0";
   EXPECT_EQ(result.imported.vertex_colors[(4 + 3) * 4], 0.0F);
 }

@@ -24,7 +24,7 @@ using testing::HasSubstr;
 constexpr float kHalf = 0.70710678F;
 
 /// The sky, what was warned of, and why there is none.
-struct Imported {
+struct ImportedSky {
   std::optional<Sky> sky;
   std::vector<Warning> warnings;
   std::string fault;
@@ -35,8 +35,8 @@ struct Imported {
   }
 };
 
-Imported import(const GltfBuilder& builder, const Options& options = {}) {
-  Imported result;
+ImportedSky import_light(const GltfBuilder& builder, const Options& options = {}) {
+  ImportedSky result;
   auto sky = import_sky(builder.document(), options, result.warnings);
   if (sky) {
     result.sky = std::move(*sky);
@@ -97,12 +97,12 @@ std::string temporary_hdr(const Bytes& bytes) {
   return file;
 }
 
-TEST(ImportSky, IsNothingUnlessThereIsOne) { EXPECT_FALSE(import(GltfBuilder()).sky); }
+TEST(ImportSky, IsNothingUnlessThereIsOne) { EXPECT_FALSE(import_light(GltfBuilder()).sky); }
 
 TEST(ImportSky, TakesALuminance) {
   Options options;
   options.sky = {0.1, 0.2, 0.3};
-  const Imported result = import(GltfBuilder(), options);
+  const ImportedSky result = import_light(GltfBuilder(), options);
   ASSERT_TRUE(result.sky);
   EXPECT_FALSE(result.sky->has_map());
   EXPECT_EQ(result.sky->luminance, Rgb(0.1F, 0.2F, 0.3F));
@@ -113,7 +113,7 @@ TEST(ImportSky, ReadsAnHdrImageWithPlusXInItsMiddle) {
   std::vector<Rgb> texels(8, Rgb(1.0F));
   texels[2] = Rgb(4.0F);  // upper row, right of the middle: between +x and +z
   options.sky_file = temporary_hdr(encode_hdr(4, 2, texels));
-  Imported result = import(GltfBuilder(), options);
+  ImportedSky result = import_light(GltfBuilder(), options);
   ASSERT_TRUE(result.sky) << result.fault;
   EXPECT_EQ(luminance_towards(*result.sky, {0.5F, kHalf, 0.5F}), Rgb(4.0F));
   EXPECT_EQ(luminance_towards(*result.sky, {0.5F, -kHalf, 0.5F}), Rgb(1.0F));
@@ -121,7 +121,7 @@ TEST(ImportSky, ReadsAnHdrImageWithPlusXInItsMiddle) {
 
   // A quarter turn towards larger azimuth, from +z to +x.
   options.sky_rotation_degrees = 90.0;
-  result = import(GltfBuilder(), options);
+  result = import_light(GltfBuilder(), options);
   EXPECT_EQ(luminance_towards(*result.sky, {0.5F, kHalf, -0.5F}), Rgb(4.0F));
   EXPECT_EQ(luminance_towards(*result.sky, {0.5F, kHalf, 0.5F}), Rgb(1.0F));
 }
@@ -129,17 +129,17 @@ TEST(ImportSky, ReadsAnHdrImageWithPlusXInItsMiddle) {
 TEST(ImportSky, NamesAFileThatCannotBeUsed) {
   Options options;
   options.sky_file = testing::TempDir() + "nowhere.hdr";
-  Imported result = import(GltfBuilder(), options);
+  ImportedSky result = import_light(GltfBuilder(), options);
   EXPECT_EQ(result.code, ErrorCode::kBadInput);
   EXPECT_THAT(result.fault, HasSubstr("nowhere.hdr: the file does not exist"));
   options.sky_file = temporary_hdr({'G', 'I', 'F'});
-  result = import(GltfBuilder(), options);
+  result = import_light(GltfBuilder(), options);
   EXPECT_EQ(result.code, ErrorCode::kBadInput);
   EXPECT_THAT(result.fault, HasSubstr(".hdr: is not a Radiance HDR image"));
 }
 
 TEST(ImportSky, ReadsTheCubeMapOfTheFile) {
-  const Imported result = import(with_light({{"intensity", 2.0}}));
+  const ImportedSky result = import_light(with_light({{"intensity", 2.0}}));
   ASSERT_TRUE(result.sky) << result.fault;
   EXPECT_TRUE(result.warnings.empty());
   for (int axis = 0; axis < 3; ++axis) {
@@ -174,25 +174,25 @@ TEST(ImportSky, FacesAreSeenFromInside) {
 
 TEST(ImportSky, TheFilesRotationTurnsItsSky) {
   // A quarter turn about y takes +z to +x.
-  const Imported turned = import(with_light({{"rotation", {0.0, kHalf, 0.0, kHalf}}}));
+  const ImportedSky turned = import_light(with_light({{"rotation", {0.0, kHalf, 0.0, kHalf}}}));
   ASSERT_TRUE(turned.sky) << turned.fault;
   expect_near(luminance_towards(*turned.sky, glm::normalize(glm::vec3(1, 0.1F, 0.1F))), {0, 0, 5}, 1e-4F);
   // A quarter turn about x takes +y to +z.
-  const Imported tipped = import(with_light({{"rotation", {kHalf, 0.0, 0.0, kHalf}}}));
+  const ImportedSky tipped = import_light(with_light({{"rotation", {kHalf, 0.0, 0.0, kHalf}}}));
   expect_near(luminance_towards(*tipped.sky, glm::normalize(glm::vec3(0.1F, 0.1F, 1))), {0, 5, 0}, 1e-4F);
 }
 
 TEST(ImportSky, CoefficientsStandInForImagesThatCannotBeUsed) {
   GltfBuilder builder = with_light({{"irradianceCoefficients", even_coefficients()}, {"intensity", 0.5}});
   builder.json["images"][3] = {{"uri", "data:image/png;base64,AAAA"}};
-  const Imported result = import(builder);
+  const ImportedSky result = import_light(builder);
   ASSERT_TRUE(result.sky) << result.fault;
   EXPECT_TRUE(result.warned("image-based-light-images"));
   EXPECT_THAT(result.warnings[0].message, HasSubstr("images[3]"));
   for (const Rgb& texel : result.sky->map) expect_near(texel, {0.5F, 1.0F, 1.5F}, 1e-4F);
 
   light_of(builder).erase("irradianceCoefficients");
-  EXPECT_THAT(import(builder).fault, HasSubstr("images[3]"));
+  EXPECT_THAT(import_light(builder).fault, HasSubstr("images[3]"));
 }
 
 TEST(ImportSky, CoefficientsGiveTheIrradianceTheyStandFor) {
@@ -211,18 +211,18 @@ TEST(ImportSky, CoefficientsGiveTheIrradianceTheyStandFor) {
 TEST(ImportSky, OptionsReplaceTheFilesSkyAndSaySo) {
   Options options;
   options.sky = {1.0, 1.0, 1.0};
-  const Imported result = import(with_light(), options);
+  const ImportedSky result = import_light(with_light(), options);
   EXPECT_FALSE(result.sky->has_map());
   EXPECT_TRUE(result.warned("image-based-light-replaced"));
 }
 
-TEST(ImportSky, ALightThatIsOffIsNone) { EXPECT_FALSE(import(with_light({{"intensity", 0.0}})).sky); }
+TEST(ImportSky, ALightThatIsOffIsNone) { EXPECT_FALSE(import_light(with_light({{"intensity", 0.0}})).sky); }
 
 TEST(ImportSky, TakesTheLightOfTheSceneThatIsBaked) {
   GltfBuilder builder = with_light();
   builder.json["scenes"].push_back({{"nodes", Json::array()}});
   builder.json["scene"] = 1;
-  EXPECT_FALSE(import(builder).sky);
+  EXPECT_FALSE(import_light(builder).sky);
 }
 
 TEST(CheckEnvironment, NamesWhatIsWrong) {

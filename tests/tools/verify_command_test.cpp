@@ -10,7 +10,7 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-std::variant<VerifyCommand, Ending> parse(const Arguments& more) {
+std::variant<VerifyCommand, Ending> parse_words(const Arguments& more) {
   std::vector<const char*> pointers = {"gltf-radiosity", "verify"};
   for (const std::string& argument : more) pointers.push_back(argument.c_str());
   EXPECT_TRUE(is_verify_command(pointers));
@@ -21,7 +21,7 @@ std::variant<VerifyCommand, Ending> parse(const Arguments& more) {
 VerifyCommand parse_verify(const Arguments& more) {
   Arguments arguments = {"in.glb", "out.glb"};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  const auto parsed = parse(arguments);
+  const auto parsed = parse_words(arguments);
   if (const auto* const ending = std::get_if<Ending>(&parsed)) {
     ADD_FAILURE() << ending->text;
     return {};
@@ -29,8 +29,8 @@ VerifyCommand parse_verify(const Arguments& more) {
   return std::get<VerifyCommand>(parsed);
 }
 
-std::string parse_mistake(const Arguments& arguments) {
-  const auto parsed = parse(arguments);
+std::string verify_mistake(const Arguments& arguments) {
+  const auto parsed = parse_words(arguments);
   const auto* const ending = std::get_if<Ending>(&parsed);
   if (ending == nullptr || ending->exit_code != 2) return "accepted";
   return ending->text;
@@ -117,8 +117,8 @@ TEST(VerifyCommand, TakesEveryOption) {
 }
 
 TEST(VerifyCommand, RefusesWhatMakesNoSense) {
-  EXPECT_NE(parse_mistake({"in.glb"}), "accepted");
-  EXPECT_NE(parse_mistake({"in.glb", ""}), "accepted");
+  EXPECT_NE(verify_mistake({"in.glb"}), "accepted");
+  EXPECT_NE(verify_mistake({"in.glb", ""}), "accepted");
   const std::vector<Arguments> wrong = {{"--points", "0"},       {"--noise", "0"},      {"--noise", "nan"},
                                         {"--size", "100"},       {"--size", "8,8"},     {"--eye", "1,2"},
                                         {"--fov", "180"},        {"--max-error", "-1"}, {"--seed", "-1"},
@@ -126,13 +126,13 @@ TEST(VerifyCommand, RefusesWhatMakesNoSense) {
   for (const Arguments& options : wrong) {
     Arguments arguments = {"in.glb", "out.glb"};
     arguments.insert(arguments.end(), options.begin(), options.end());
-    EXPECT_NE(parse_mistake(arguments).find(options[0]), std::string::npos) << options[0] << " " << options[1];
+    EXPECT_NE(verify_mistake(arguments).find(options[0]), std::string::npos) << options[0] << " " << options[1];
   }
 }
 
 TEST(VerifyCommand, HelpAndVersionEndWell) {
   for (const char* option : {"--help", "-h", "--version"}) {
-    const auto parsed = parse({option});
+    const auto parsed = parse_words({option});
     ASSERT_TRUE(std::holds_alternative<Ending>(parsed));
     EXPECT_EQ(std::get<Ending>(parsed).exit_code, 0);
   }

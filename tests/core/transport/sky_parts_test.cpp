@@ -18,8 +18,7 @@ using test::add_sun;
 using test::integral;
 using test::sky_of;
 
-constexpr double kPi = std::numbers::pi;
-constexpr glm::vec3 kUp(0.0F, 1.0F, 0.0F);
+constexpr glm::vec3 kZenith(0.0F, 1.0F, 0.0F);
 const glm::vec3 kHigh = glm::normalize(glm::vec3(0.3F, 0.9F, -0.2F));
 
 Sky gradient() {
@@ -64,7 +63,7 @@ TEST(SkyParts, ASkyWithoutAMapHasNoBrightPart) {
   sky.luminance = {1, 2, 3};
   EXPECT_TRUE(BrightSky(sky).empty());
   EXPECT_TRUE(SmoothSky(sky, 16).is_constant());
-  EXPECT_EQ(SmoothSky(sky, 16).luminance(kUp), Rgb(1, 2, 3));
+  EXPECT_EQ(SmoothSky(sky, 16).luminance(kZenith), Rgb(1, 2, 3));
   EXPECT_FALSE(SmoothSky(sky, 16).is_black());
   EXPECT_TRUE(SmoothSky(Sky{}, 16).is_black());
 }
@@ -78,7 +77,7 @@ TEST(SkyParts, TheLimitIsAMultipleOfTheMeanBelowIt) {
     double share = 0.0;
     for (int row = 0; row < sky.height; ++row) {
       const Rgb& first = sky.map[static_cast<std::size_t>(row) * static_cast<std::size_t>(width)];
-      if (first.x > 1.0F) share += width * texel_solid_angle(sky, row) / (4.0 * kPi);
+      if (first.x > 1.0F) share += width * texel_solid_angle(sky, row) / (4.0 * std::numbers::pi);
     }
     const double expected = kBrightness * (1.0 - share) / (1.0 - kBrightness * share);
     EXPECT_NEAR(double{bright_limit(sky)} / expected, 1.0, 0.02);
@@ -97,8 +96,8 @@ TEST(SkyParts, LightASurfaceAndItsBackAsTheSkyDoes) {
     const SmoothSky smooth(sky, 16);
     const BrightSky bright(sky);
     EXPECT_FALSE(bright.empty()) << name;
-    const double flux = 4.0 * kPi * double{luminance_of(mean_luminance(sky))};
-    for (const glm::vec3 normal : {glm::vec3(1, 0, 0), kUp, glm::vec3(0, 0, 1)}) {
+    const double flux = 4.0 * std::numbers::pi * double{luminance_of(mean_luminance(sky))};
+    for (const glm::vec3 normal : {glm::vec3(1, 0, 0), kZenith, glm::vec3(0, 0, 1)}) {
       double net = 0.0;
       for (std::size_t t = 0; t < sky.map.size(); ++t) {
         net += glm::dot(texel_vector(sky, t), glm::dvec3(normal)) * double{luminance_of(sky.map[t])};
@@ -115,7 +114,7 @@ TEST(SkyParts, KeepTheFluxToAThousandth) {
   for (const auto& [name, sky] : bright_skies()) {
     const BrightSky bright(sky);
     const SmoothSky smooth(sky, 16);
-    const glm::dvec3 all = 4.0 * kPi * glm::dvec3(mean_luminance(sky));
+    const glm::dvec3 all = 4.0 * std::numbers::pi * glm::dvec3(mean_luminance(sky));
     const glm::dvec3 parts =
         integral([&](const glm::vec3& d) { return smooth.luminance(d); }) + glm::dvec3(bright.illuminance());
     for (int band = 0; band < 3; ++band) EXPECT_NEAR(parts[band] / all[band], 1.0, 1e-3) << name;
@@ -126,7 +125,7 @@ TEST(SkyParts, DirectionsBringTheUnoccludedLightOnAverage) {
   for (const auto& [name, sky] : bright_skies()) {
     const BrightSky bright(sky);
     std::vector<double> until;
-    const double total = bright.weigh(kUp, until);
+    const double total = bright.weigh(kZenith, until);
     ASSERT_LE(until.size(), kMaxSkyGroups) << name;
     constexpr int kRays = 4096;
     double sum = 0.0, above = 0.0;
@@ -145,13 +144,13 @@ TEST(SkyParts, ASunHasItsColourAndItsCosine) {
   const Sky sky = bright_skies()["sun alone"];
   const BrightSky bright(sky);
   std::vector<double> until;
-  bright.weigh(kUp, until);
+  bright.weigh(kZenith, until);
   const ChosenDirection chosen = bright.choose(until, 0.3, {0.5F, 0.5F});
   EXPECT_EQ(until.size(), 1U);
   for (int band = 0; band < 3; ++band) {
     EXPECT_NEAR(chosen.irradiance[band], (3.0F - static_cast<float>(band)) * 10.0F * chosen.direction.y, 0.01F);
   }
-  EXPECT_EQ(bright.weigh(-kUp, until), 0.0);
+  EXPECT_EQ(bright.weigh(-kZenith, until), 0.0);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@
 namespace radiosity {
 namespace {
 
-double sum(std::span<const float> values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+double total(std::span<const float> values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 glm::vec3 random_direction(std::mt19937& random) {
   std::normal_distribution<float> normal;
@@ -25,7 +25,7 @@ TEST(Hemicube, DeltaFormFactorsSumToOneAndArePositive) {
   for (const int resolution : {2, 4, 6, 16, 34, 64, 128}) {
     const Hemicube hemicube(resolution);
     EXPECT_EQ(hemicube.cell_count(), 3 * resolution * resolution);
-    EXPECT_NEAR(sum(hemicube.delta_form_factors()), 1.0, 1e-6) << resolution;
+    EXPECT_NEAR(total(hemicube.delta_form_factors()), 1.0, 1e-6) << resolution;
     EXPECT_GT(*std::min_element(hemicube.delta_form_factors().begin(), hemicube.delta_form_factors().end()), 0.0F);
   }
 }
