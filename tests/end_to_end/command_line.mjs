@@ -13,6 +13,9 @@ export function from_environment(name) {
 
 export const program = () => from_environment('GLTF_RADIOSITY_CLI')
 export const test_asset = (name) => path.join(from_environment('GLTF_RADIOSITY_TEST_ASSETS'), name)
+// The cheapest bake that goes through every phase, where it is not asked how good the light is.
+export const cheapest = ['--quality', 'draft', '--max-patches', '500', '--hemicube', '8', '--residual', '0.05']
+
 // Sanitizers make everything ten times slower: tests then take fewer scenes.
 export const sanitized = () => process.env.GLTF_RADIOSITY_SANITIZED === '1'
 

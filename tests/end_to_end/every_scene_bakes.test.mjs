@@ -4,10 +4,9 @@ import fs from 'node:fs'
 import path from 'node:path'
 import test from 'node:test'
 import { check_baked } from './baked.mjs'
-import { bake, sanitized, temporary_folder, test_asset } from './command_line.mjs'
+import { bake, cheapest, sanitized, temporary_folder, test_asset } from './command_line.mjs'
 
 const folder = temporary_folder()
-const draft = ['--quality', 'draft']
 const option_sets = [
   { output: 'as_it_is.glb', options: ['--refine', 'none'] },
   { output: 'uniform.gltf', options: ['--refine', 'uniform', '--color-type', 'u16'] },
@@ -24,7 +23,7 @@ for (const scene of scenes.filter((name) => !too_slow.includes(name))) {
     test(`${scene} bakes with ${options.join(' ')} to ${output.replace(/^\w+/, '')}`, async () => {
       const target = path.join(folder, scene, output)
       fs.mkdirSync(path.dirname(target), { recursive: true })
-      bake(test_asset(scene), target, ...draft, ...options)
+      bake(test_asset(scene), target, ...cheapest, ...options)
       await check_baked(test_asset(scene), target)
     })
   }

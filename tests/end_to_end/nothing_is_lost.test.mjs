@@ -4,7 +4,7 @@ import fs from 'node:fs'
 import path from 'node:path'
 import test from 'node:test'
 import { check_baked, colors_of, has_triangles } from './baked.mjs'
-import { bake, temporary_folder, test_asset } from './command_line.mjs'
+import { bake, cheapest, temporary_folder, test_asset } from './command_line.mjs'
 import { primitives_of_scene, read_accessor, read_gltf, triangles_of } from './gltf_file.mjs'
 
 const folder = temporary_folder()
@@ -12,7 +12,7 @@ const folder = temporary_folder()
 // { input, output } of a bake that passed every check of check_baked.
 async function baked(scene, output, ...options) {
   const target = path.join(folder, output)
-  bake(test_asset(scene), target, '--quality', 'draft', ...options)
+  bake(test_asset(scene), target, ...cheapest, ...options)
   return check_baked(test_asset(scene), target)
 }
 

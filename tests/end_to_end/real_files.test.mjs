@@ -7,7 +7,7 @@ import fs from 'node:fs'
 import path from 'node:path'
 import test from 'node:test'
 import { check_baked } from './baked.mjs'
-import { run, sanitized, temporary_folder } from './command_line.mjs'
+import { cheapest, run, sanitized, temporary_folder } from './command_line.mjs'
 
 const assets = process.env.GLTF_RADIOSITY_ASSETS ?? ''
 const folder = temporary_folder()
@@ -21,9 +21,7 @@ const files_in = (...names) => {
 const is_small = (file) => !sanitized() || fs.statSync(file).size < 100_000
 const to_bake = ['interior', 'objects', 'features'].flatMap((name) => files_in(name)).filter(is_small)
 const malformed = [...files_in('malformed'), ...files_in('malformed', 'as_glb')]
-// The cheapest bake that goes through every phase: what is asked here is not how good the light is.
-const mesh = ['--refine', 'none', '--max-patches', '500']
-const options = [...mesh, '--quality', 'draft', '--hemicube', '8', '--residual', '0.05']
+const options = [...cheapest, '--refine', 'none']
 
 if (to_bake.length + malformed.length === 0) {
   console.log(`SKIPPED: no assets in '${assets}' (0 files); GLTF_RADIOSITY_ASSETS names the folder that holds them`)
