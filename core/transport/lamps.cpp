@@ -18,8 +18,8 @@ constexpr float kPointLike = 6.0F;
 /// single vertices with 8 rays, 1 % with 32.
 constexpr float kFar = 16.0F;
 
-/// A group whose mean normal is longer than this counts as flat.
-constexpr float kFlat = 0.95F;
+/// A group whose mean normal is longer than this counts as flat, and than this as flat but for rounding.
+constexpr float kFlat = 0.95F, kPlane = 1.0F - 1e-6F;
 
 /// A polygon cut off at a horizon: a triangle keeps at most four corners.
 struct Polygon {
@@ -151,6 +151,7 @@ Lamps::Group Lamps::describe(std::uint32_t first, std::uint32_t count) const {
   for (std::uint32_t k = first; k < first + count; ++k) {
     for (const glm::vec3& corner : tiles_[k].corner) {
       group.radius = std::max(group.radius, glm::distance(group.middle, corner));
+      group.thickness = std::max(group.thickness, std::abs(glm::dot(group.facing, corner - group.middle)));
     }
   }
   return group;
@@ -171,6 +172,13 @@ Lamps::FarView Lamps::view_from_afar(const Group& group, const SurfacePoint& poi
   const glm::vec3 apart = group.middle - point.position;
   const float height = glm::dot(point.normal, apart);
   if (height <= -group.radius) return {FarView::kHidden, 0.0};
+
+  // All in one plane, and the point in it or behind it?
+  if (glm::dot(group.facing, group.facing) > kPlane) {
+    const float before = -glm::dot(group.facing, apart);
+    if (std::abs(before) + group.thickness <= surface_offset_) return {FarView::kHidden, 0.0};
+    if (!group.two_sided && before <= -group.thickness) return {FarView::kHidden, 0.0};
+  }
 
   // So far that it counts as one lamp?
   const float distance = glm::length(apart);

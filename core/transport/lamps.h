@@ -58,6 +58,7 @@ class Lamps {
     std::uint32_t second_child = 0;
     glm::vec3 middle{0.0F};  // m, weighted by flux
     float radius = 0.0F;     // m, of a sphere around the middle that holds all lamps
+    float thickness = 0.0F;  // m, corners are no further from the plane through the middle across `facing`
     glm::vec3 facing{0.0F};  // mean normal, weighted by flux: shorter than 1 where the group is curved
     double flux = 0.0;       // sum of area times eye-weighted luminance
     Rgb color{0.0F};         // mean luminance over its eye-weighted luminance
