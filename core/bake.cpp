@@ -26,6 +26,11 @@ Subdivision subdivide(const Scene& scene, const BakeOptions& options, const Prog
   return subdivide_uniform(scene, options.subdivide, progress);
 }
 
+int patch_limit(const BakeOptions& options, const RefinedMesh& mesh) {
+  if (options.max_patches > 0) return options.max_patches;
+  return automatic_patches(mesh.elements.size(), options.hemicube_resolution);
+}
+
 bool use_raster(const Scene& scene, const BakeOptions& options) {
   if (options.visibility != Visibility::kAuto) return options.visibility == Visibility::kRaster;
   return raster_is_faster(scene.triangles.size(), options.hemicube_resolution);
@@ -57,7 +62,7 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
   Subdivision subdivision = subdivide(scene, options, progress);
   result.mesh = std::move(subdivision.mesh);
   const RayScene rays(scene);
-  const Patches patches = make_patches(rays, {options.max_patches, 2}, progress);
+  const Patches patches = make_patches(rays, {patch_limit(options, result.mesh), 2}, progress);
 
   // Visibility. A fit averages over many samples, so their hemicubes are half as wide.
   const bool raster = use_raster(scene, options);
@@ -96,6 +101,11 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
 }
 
 }  // namespace
+
+int automatic_patches(std::size_t element_count, int hemicube_resolution) {
+  const double at_medium = std::clamp(static_cast<double>(element_count) / 3.0, 1000.0, 10'000.0);
+  return std::max(1, static_cast<int>(at_medium * hemicube_resolution / 16.0));
+}
 
 Bake bake(const Scene& scene, const BakeOptions& options, const Progress& progress) {
   return on_threads(options.threads, [&] { return bake_here(scene, options, progress); });

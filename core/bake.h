@@ -28,12 +28,18 @@ struct BakeOptions {
   Visibility visibility = Visibility::kAuto;
   Solver solver = Solver::kGathering;
   Fit fit = Fit::kLeastSquares;
-  float residual = 0.001F;   ///< stop when this share of the emitted flux is still unshot, (0,1)
-  int max_patches = 10'000;  ///< patches that send light; more see finer indirect light
-  int lamp_rays = 32;        ///< shadow rays from a sample to all lamps together, where some are hidden
+  float residual = 0.001F;  ///< stop when this share of the emitted flux is still unshot, (0,1)
+  int max_patches = 0;      ///< patches that send light; more see finer indirect light; 0: see automatic_patches()
+  int lamp_rays = 32;       ///< shadow rays from a sample to all lamps together, where some are hidden
   std::size_t row_cache_bytes = std::size_t{1} << 30;  ///< memory for rows of form factors: older ones are evicted
   int threads = 0;                                     ///< 0 uses every core; the result does not depend on it
 };
+
+/// As many patches as a display mesh of `element_count` elements is worth: a third of them, but 1 000 at least and 10
+/// 000 at most, more with wide hemicubes and fewer with narrow ones. Finer patches cost more than they make right: a
+/// Cornell box of 10 000 elements is 1.9 % wrong with 1 000 patches, 1.8 % with 3 000 and 1.7 % with 10 000, at 3.4
+/// times the time.
+int automatic_patches(std::size_t element_count, int hemicube_resolution);
 
 /// What was done, for reports. Fluxes are in lumen, all bands weighted to luminance.
 struct BakeReport {

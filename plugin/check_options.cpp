@@ -43,7 +43,7 @@ Result<Done> check_options(const Options& options) {
     return refuse("--hemicube", "must be even and between 2 and 512");
   }
   if (!(options.residual > 0.0 && options.residual < 1.0)) return refuse("--residual", "must lie between 0 and 1");
-  if (options.max_patches < 1) return refuse("--max-patches", "must be at least 1");
+  if (options.max_patches < 0) return refuse("--max-patches", "must not be negative");
   if (options.max_memory != 0 && options.max_memory < (std::uint64_t{64} << 20U)) {
     return refuse("--max-memory", "must be at least 64M");
   }

@@ -56,7 +56,7 @@ struct Options {
   VisibilityMethod visibility = VisibilityMethod::kAuto;
   SolverMethod solver = SolverMethod::kGathering;
   double residual = 0.001;  ///< stop at this share of unshot flux, (0, 1)
-  int max_patches = 10'000;
+  int max_patches = 0;      ///< 0: as many as the baked mesh is worth
   FitMethod fit = FitMethod::kLeastSquares;
   /// Rows of form factors take half of this at most, bytes, and the mesh stops growing in time; 0 is three quarters of
   /// the machine's memory.

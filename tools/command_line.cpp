@@ -28,13 +28,8 @@ constexpr Choices<SolverMethod, 2> kSolver{
 constexpr Choices<ColorType, 3> kColorType{
     {{"float", ColorType::kFloat}, {"u16", ColorType::kU16}, {"u8", ColorType::kU8}}};
 
-/// What --quality sets unless the option itself is given.
-struct Quality {
-  int hemicube = 0;
-  int max_patches = 0;
-};
-const Quality kMedium{Options{}.hemicube, Options{}.max_patches};
-const Choices<Quality, 3> kQuality{{{"draft", {8, 4000}}, {"medium", kMedium}, {"high", {32, 60000}}}};
+/// The --hemicube that --quality sets unless it is given itself.
+const Choices<int, 3> kQuality{{{"draft", 8}, {"medium", Options{}.hemicube}, {"high", 32}}};
 
 // ---- the options, group by group ----
 
@@ -70,16 +65,14 @@ void add_mesh_options(CLI::App& app, Options& options) {
       ->allow_extra_args(false);
 }
 
-void add_quality(CLI::App& app, std::optional<Quality>& quality) {
-  std::string description = "Sets two options at once, which win if given themselves:";
-  for (const auto& [name, preset] : kQuality) {
-    description += fmt::format("\n{}: --hemicube {} --max-patches {}", name, preset.hemicube, preset.max_patches);
-  }
+void add_quality(CLI::App& app, std::optional<int>& quality) {
+  std::string description = "Sets --hemicube, unless it is given itself; the number of patches goes with it:";
+  for (const auto& [name, hemicube] : kQuality) description += fmt::format("\n{}: --hemicube {}", name, hemicube);
   add(app, {"--quality", names_of(kQuality), "medium", description},
       [&quality](const std::string& text) { quality = parse_choice(text, kQuality); });
 }
 
-void add_transport_options(CLI::App& app, Options& options, std::optional<Quality>& quality) {
+void add_transport_options(CLI::App& app, Options& options, std::optional<int>& quality) {
   app.option_defaults()->group("Transport: how exactly the light is computed");
   add_quality(app, quality);
   add(app,
@@ -90,9 +83,12 @@ void add_transport_options(CLI::App& app, Options& options, std::optional<Qualit
         if (options.hemicube % 2 != 0) throw BadValue(text + " is not even");
       });
   add(app,
-      {"--max-patches", "COUNT", std::to_string(options.max_patches),
-       "Surfaces are grouped into at most this many patches that send light; more see finer indirect light"},
-      [&options](const std::string& text) { options.max_patches = parse_integer(text, 1, 100'000'000); });
+      {"--max-patches", "COUNT|auto", "auto",
+       "Surfaces are grouped into at most this many patches that send light; more see finer indirect light; auto is a "
+       "third of the baked triangles, 1000 to 10000 with hemicubes of 16 cells"},
+      [&options](const std::string& text) {
+        options.max_patches = text == "auto" ? 0 : parse_integer(text, 1, 100'000'000);
+      });
   add(app,
       {"--residual", "SHARE", fmt::format("{}", options.residual),
        "Stop when this share of the emitted light is still on its way, between 0 and 1"},
@@ -152,7 +148,7 @@ void add_other_options(CLI::App& app) {
 /// The parser and where its values go. Not movable: the parser's callbacks point into it.
 struct Parser {
   CommandLine line;
-  std::optional<Quality> quality;
+  std::optional<int> quality;
   CLI::App app{std::string(kHelpDescription), "gltf-radiosity"};
 
   Parser() {
@@ -171,10 +167,9 @@ struct Parser {
 
 /// What is only known once every option has been read.
 void finish(Parser& parser) {
-  // Explicit options win over --quality, wherever either was given
+  // An explicit --hemicube wins over --quality, wherever either was given
   Options& options = parser.line.options;
-  if (parser.quality && parser.app.count("--hemicube") == 0) options.hemicube = parser.quality->hemicube;
-  if (parser.quality && parser.app.count("--max-patches") == 0) options.max_patches = parser.quality->max_patches;
+  if (parser.quality && parser.app.count("--hemicube") == 0) options.hemicube = *parser.quality;
 
   // The report must not replace the scene
   const CommandLine& line = parser.line;

@@ -90,6 +90,19 @@ TEST(Bake, ShowsThatByDefaultToo) {
   }
 }
 
+TEST(Bake, MakesAsManyPatchesAsTheMeshIsWorth) {
+  EXPECT_EQ(automatic_patches(30, 16), 1000);
+  EXPECT_EQ(automatic_patches(9000, 16), 3000);
+  EXPECT_EQ(automatic_patches(5'000'000, 16), 10'000);
+  EXPECT_EQ(automatic_patches(9000, 8), 1500);
+  EXPECT_EQ(automatic_patches(0, 2), 125);
+  BakeOptions options;
+  options.refine_uniform = false;
+  const BakeReport automatic = bake(test::cornell_box(), options, {}).report;
+  EXPECT_LE(automatic.patch_count, 1000U);
+  EXPECT_GT(automatic.patch_count, 500U);
+}
+
 TEST(Bake, KeepsTheMeanLightOfAClosedRoom) {
   // All that is brought in over what is not reflected: the flux of a candela in all directions over 1 - rho.
   Scene scene = test::box_room({1, 2, 3}, {.reflectance = Rgb(0.6F)});

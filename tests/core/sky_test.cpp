@@ -16,7 +16,6 @@ namespace {
 using test::sky_of;
 using testing::HasSubstr;
 
-
 /// A map whose texels are told apart by their red band.
 Sky numbered_sky(int width) {
   Sky sky = sky_of(width, [](const glm::vec3&) { return 0.0F; });

@@ -112,8 +112,8 @@ test('a plate casts its shadow', () => {
     const cosine = 3 / Math.hypot(x, 3, z)
     const lit = (0.5 * 30 * cosine) / Math.hypot(x, 3, z) ** 2 / Math.PI
     if (nearest < 0.8) assert_near(color[1], 0, 0.001, `shadow at ${x},${z}`)
-    // The fit swings a little where the shadow ends.
-    const tolerance = nearest > 1.3 ? 0.02 : 0.04
+    // The fit swings a little where the shadow ends: three samples see the end in each triangle.
+    const tolerance = nearest > 1.3 ? 0.02 : 0.06
     if (nearest > 1.2 && nearest < 1.8) assert_near(color[1], lit, tolerance * lit, `light at ${x},${z}`)
   }
 })

@@ -52,7 +52,7 @@ TEST(CheckOptions, TheSolverComesToAnEnd) {
   for (const double residual : {0.0, 1.0, -0.1, kInfinity}) {
     EXPECT_EQ(refused([&](Options& o) { o.residual = residual; }), "--residual") << residual;
   }
-  EXPECT_EQ(refused([](Options& o) { o.max_patches = 0; }), "--max-patches");
+  EXPECT_EQ(refused([](Options& o) { o.max_patches = -1; }), "--max-patches");
   EXPECT_EQ(refused([](Options& o) { o.threads = -1; }), "--threads");
 }
 

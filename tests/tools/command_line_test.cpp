@@ -147,22 +147,17 @@ TEST(CommandLine, TakesTheExposureOfACamera) {
   EXPECT_NE(parse_mistake({"in", "out", "--ev100", "1", "--exposure", "1"}).find("--exposure"), std::string::npos);
 }
 
-TEST(CommandLine, QualitySetsWhatIsNotGiven) {
+TEST(CommandLine, QualitySetsTheHemicubeUnlessThatIsGiven) {
   const Options medium = parse_bake({"--quality", "medium"}).options;
   EXPECT_EQ(medium.hemicube, Options{}.hemicube);
-  EXPECT_EQ(medium.max_patches, Options{}.max_patches);
   const Options draft = parse_bake({"--quality", "draft"}).options;
   const Options high = parse_bake({"--quality", "high"}).options;
   EXPECT_LT(draft.hemicube, medium.hemicube);
-  EXPECT_LT(draft.max_patches, medium.max_patches);
   EXPECT_GT(high.hemicube, medium.hemicube);
-  EXPECT_GT(high.max_patches, medium.max_patches);
 
   for (const Arguments& order :
        {Arguments{"--quality", "high", "--hemicube", "8"}, {"--hemicube", "8", "--quality=high"}}) {
-    const Options mixed = parse_bake(order).options;
-    EXPECT_EQ(mixed.hemicube, 8);
-    EXPECT_EQ(mixed.max_patches, high.max_patches);
+    EXPECT_EQ(parse_bake(order).options.hemicube, 8);
   }
 }
 
@@ -221,14 +216,14 @@ TEST(CommandLine, WantsTwoFilesAndNoMore) {
 TEST(CommandLine, TakesOptionsFromAFile) {
   const ConfigFile config(
       "patch-size = 0.5\nsky = [1, 2.5, 3]\nsubdivide = [\"A=1\", \"B=2\"]\nno-default-sky = true\nhemicube = 8\n"
-      "quality = \"high\"\n");
+      "max-patches = \"auto\"\nquality = \"high\"\n");
   const Options options = parse_bake({"--config", config.path(), "--patch-size", "0.25"}).options;
   EXPECT_EQ(options.patch_size, 0.25);
   EXPECT_EQ(options.sky, (std::array{1.0, 2.5, 3.0}));
   EXPECT_EQ(options.subdivide, (std::vector<std::pair<std::string, int>>{{"A", 1}, {"B", 2}}));
   EXPECT_FALSE(options.default_sky);
   EXPECT_EQ(options.hemicube, 8);
-  EXPECT_EQ(options.max_patches, parse_bake({"--quality", "high"}).options.max_patches);
+  EXPECT_EQ(options.max_patches, 0);
 }
 
 TEST(CommandLine, RefusesAFileWithMistakes) {

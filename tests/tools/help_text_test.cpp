@@ -77,7 +77,7 @@ TEST(HelpText, StatesTheDefaultsOfTheLibrary) {
       {"--light-units", "auto"},
       {"--quality", "medium"},
       {"--hemicube", fmt::format("{}", library.hemicube)},
-      {"--max-patches", fmt::format("{}", library.max_patches)},
+      {"--max-patches", "auto"},
       {"--residual", fmt::format("{}", library.residual)},
       {"--visibility", "auto"},
       {"--solver", "gathering"},
