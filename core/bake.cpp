@@ -103,7 +103,7 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
 }  // namespace
 
 int automatic_patches(std::size_t element_count, int hemicube_resolution) {
-  const double at_medium = std::clamp(static_cast<double>(element_count) / 3.0, 1000.0, 10'000.0);
+  const double at_medium = std::clamp(static_cast<double>(element_count) / 3.0, 1000.0, 30'000.0);
   return std::max(1, static_cast<int>(at_medium * hemicube_resolution / 16.0));
 }
 
