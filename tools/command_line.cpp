@@ -85,7 +85,7 @@ void add_transport_options(CLI::App& app, Options& options, std::optional<int>& 
   add(app,
       {"--max-patches", "COUNT|auto", "auto",
        "Surfaces are grouped into at most this many patches that send light; more see finer indirect light; auto is a "
-       "third of the baked triangles, 1000 to 10000 with hemicubes of 16 cells"},
+       "third of the baked triangles, 1000 to 30000 with hemicubes of 16 cells"},
       [&options](const std::string& text) {
         options.max_patches = text == "auto" ? 0 : parse_integer(text, 1, 100'000'000);
       });

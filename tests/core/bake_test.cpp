@@ -93,7 +93,7 @@ TEST(Bake, ShowsThatByDefaultToo) {
 TEST(Bake, MakesAsManyPatchesAsTheMeshIsWorth) {
   EXPECT_EQ(automatic_patches(30, 16), 1000);
   EXPECT_EQ(automatic_patches(9000, 16), 3000);
-  EXPECT_EQ(automatic_patches(5'000'000, 16), 10'000);
+  EXPECT_EQ(automatic_patches(5'000'000, 16), 30'000);
   EXPECT_EQ(automatic_patches(9000, 8), 1500);
   EXPECT_EQ(automatic_patches(0, 2), 125);
   BakeOptions options;
