@@ -33,4 +33,17 @@ glm::vec3 middle(const RefinedMesh& mesh, std::uint32_t element) {
   return (mesh.positions[t.x] + mesh.positions[t.y] + mesh.positions[t.z]) / 3.0F;
 }
 
+double area_of(const SubTriangle& part) {
+  const glm::dvec2 u = part.corner[1] - part.corner[0], v = part.corner[2] - part.corner[0];
+  return 0.5 * (u.x * v.y - u.y * v.x);
+}
+
+bool holds(const SubTriangle& part, Barycentrics at) {
+  for (int k = 0; k < 3; ++k) {
+    const SubTriangle third{{part.corner[k], part.corner[(k + 1) % 3], at}};
+    if (area_of(third) < -1e-6) return false;
+  }
+  return true;
+}
+
 }  // namespace radiosity::test

@@ -1,4 +1,4 @@
-// Small display meshes in code.
+// Small display meshes in code, and parts of triangles.
 #pragma once
 
 #include <cstdint>
@@ -14,5 +14,11 @@ void add_grid(RefinedMesh& mesh, int n, const glm::vec3& origin, const glm::vec3
 RefinedMesh grid(int n);
 
 glm::vec3 middle(const RefinedMesh& mesh, std::uint32_t element);
+
+/// In barycentric coordinates: half for a whole triangle, negative for one that runs clockwise.
+double area_of(const SubTriangle& part);
+
+/// Whether `part` holds a point, give or take rounding.
+bool holds(const SubTriangle& part, Barycentrics at);
 
 }  // namespace radiosity::test

@@ -9,24 +9,13 @@
 #include <utility>
 
 #include "core/photometry.h"
+#include "tests/core/test_meshes.h"
 #include "tests/core/test_scenes.h"
 
 namespace radiosity {
 namespace {
 
-double area_of(const SubTriangle& part) {
-  const glm::dvec2 u = part.corner[1] - part.corner[0], v = part.corner[2] - part.corner[0];
-  return 0.5 * (u.x * v.y - u.y * v.x);
-}
-
-/// Whether `part` holds a point, give or take rounding.
-bool holds(const SubTriangle& part, Barycentrics at) {
-  for (int k = 0; k < 3; ++k) {
-    const SubTriangle third{{part.corner[k], part.corner[(k + 1) % 3], at}};
-    if (area_of(third) < -1e-6) return false;
-  }
-  return true;
-}
+using test::holds;
 
 Patches patches_of(const Scene& scene, int max_patches) {
   const RayScene rays(scene);
