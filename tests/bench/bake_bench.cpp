@@ -32,7 +32,6 @@ void BM_BakeByQuality(benchmark::State& state) {
   BakeOptions options;
   options.subdivide.patch_size = 0.03F;
   options.hemicube_resolution = static_cast<int>(state.range(0));
-  options.max_patches = static_cast<int>(state.range(1));
   bake_cornell_box(state, options);
 }
 
@@ -49,12 +48,7 @@ void whole_bakes(benchmark::internal::Benchmark* bench) {
   bench->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 }
 BENCHMARK(BM_BakeBySize)->Apply(whole_bakes)->ArgName("mm")->Arg(200)->Arg(100)->Arg(50)->Arg(25)->Arg(12);
-BENCHMARK(BM_BakeByQuality)
-    ->Apply(whole_bakes)
-    ->ArgNames({"cells", "max_patches"})
-    ->Args({16, 1500})
-    ->Args({32, 4000})
-    ->Args({64, 12000});
+BENCHMARK(BM_BakeByQuality)->Apply(whole_bakes)->ArgName("cells")->Arg(8)->Arg(16)->Arg(32);
 BENCHMARK(BM_BakeByThreads)->Apply(whole_bakes)->ArgName("threads")->Arg(1)->Arg(2)->Arg(0);
 
 }  // namespace
