@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <unordered_map>
 
+#include "core/mesh/reach.h"
 #include "core/mesh/split_groups.h"
 #include "core/photometry.h"
 
@@ -18,6 +20,9 @@ constexpr std::size_t kMaxTiles = 4'000'000;
 
 /// Length of a tile as a share of a patch: several tiles to a patch let it be split where a wall stands on it.
 constexpr float kTileLength = 0.5F;
+
+/// Of the limit of patches: with so many of them reached by light, smaller ones are not worth a second grouping.
+constexpr float kEnoughUsed = 0.6F;
 
 /// What tiles of one patch have in common.
 struct PatchKey {
@@ -79,7 +84,7 @@ bool is_two_sided(const Scene& scene, std::uint32_t triangle) {
 }
 
 /// The size of a grid cell that gives few enough groups, metres: splitting them will make more.
-float choose_size(const Scene& scene, std::span<const float> areas, int max_patches) {
+float choose_size(const Scene& scene, std::span<const float> areas, std::uint32_t max_patches) {
   constexpr double kGroupsPerPatch = 0.8;
   const auto most = std::max(1U, static_cast<std::uint32_t>(kGroupsPerPatch * max_patches));
   const double total_area = std::accumulate(areas.begin(), areas.end(), 0.0);
@@ -103,31 +108,95 @@ struct Grouping {
   Tiling tiling;
   std::vector<Survey> surveys;
   std::vector<TileSide> sides;
-  Parts patches;
+  Parts patches;                    // of `sides`
+  std::vector<TileSide> unreached;  // one patch more, the last
+
+  std::uint32_t patch_count() const { return patches.count + (unreached.empty() ? 0 : 1); }
 };
 
-Grouping group(const RayScene& rays, std::span<const float> areas, float size, const Progress& progress) {
+/// Whether no light reaches a side of a tile, neither its middle nor its corners.
+bool is_unreached(const Patches& patches, const Tile& tile, bool back) {
+  if (patches.unreached == kNothing) return false;
+  const Barycentrics middle = middle_of(tile.part);
+  const auto unreached_at = [&](Barycentrics at) {
+    return patches.patch_at(tile.triangle, at, back) == patches.unreached;
+  };
+  return unreached_at(middle) &&
+         std::all_of(std::begin(tile.part.corner), std::end(tile.part.corner),
+                     [&](Barycentrics at) { return unreached_at(glm::mix(at, middle, 0.05F)); });
+}
+
+/// Tiles and patches of `before.size`. What is known to be out of reach there is not grouped again.
+Grouping group(const RayScene& rays, std::span<const float> areas, const Patches& before, const Progress& progress) {
   const Scene& scene = rays.scene();
-  Grouping grouping{make_tiles(scene, areas, kTileLength * size), {}, {}, {}};
-  grouping.surveys = cut_straddling_tiles(rays, size, grouping.tiling, progress);
+  const float size = before.size;
+  Grouping grouping{make_tiles(scene, areas, kTileLength * size), {}, {}, {}, {}};
+  const auto takes_part = [&](const Tile& tile, bool back) { return !is_unreached(before, tile, back); };
+  grouping.surveys = cut_straddling_tiles(rays, size, takes_part, grouping.tiling, progress);
   CellGroups groups(scene, size);
   for (std::uint32_t k = 0; k < grouping.surveys.size(); ++k) {
     const Tile& tile = grouping.surveys[k].tile;
     for (int back = 0; back <= (is_two_sided(scene, tile.triangle) ? 1 : 0); ++back) {
-      grouping.sides.push_back({k, back != 0, groups.group_of(tile, back != 0), grouping.surveys[k].side[back]});
+      if (!takes_part(tile, back != 0)) {
+        grouping.unreached.push_back({k, back != 0, 0, {}});
+      } else {
+        grouping.sides.push_back({k, back != 0, groups.group_of(tile, back != 0), grouping.surveys[k].side[back]});
+      }
     }
   }
   grouping.patches = split_groups(rays, {grouping.sides, groups.count(), size}, progress);
   return grouping;
 }
 
+/// Tells the tiles their patches.
 void assign(const Grouping& grouping, Patches& patches) {
+  patches.tiling = grouping.tiling;
   patches.patch_of_tile.assign(grouping.tiling.first_child.size(), kNothing);
   patches.back_patch_of_tile.assign(grouping.tiling.first_child.size(), kNothing);
-  for (std::size_t s = 0; s < grouping.sides.size(); ++s) {
-    const TileSide& side = grouping.sides[s];
+  const auto set = [&](const TileSide& side, std::uint32_t patch) {
     std::vector<std::uint32_t>& of_tile = side.back ? patches.back_patch_of_tile : patches.patch_of_tile;
-    of_tile[grouping.surveys[side.survey].tile.tile] = grouping.patches.part_of_side[s];
+    of_tile[grouping.surveys[side.survey].tile.tile] = patch;
+  };
+  for (std::size_t s = 0; s < grouping.sides.size(); ++s) set(grouping.sides[s], grouping.patches.part_of_side[s]);
+  for (const TileSide& side : grouping.unreached) set(side, grouping.patches.count);
+  patches.unreached = grouping.unreached.empty() ? kNothing : grouping.patches.count;
+}
+
+/// Moves the sides of patches that no light reaches to the last patch.
+void set_unreached_apart(std::span<const std::uint8_t> reached, Grouping& grouping) {
+  std::vector<std::uint32_t> new_number(reached.size(), 0);
+  std::exclusive_scan(reached.begin(), reached.end(), new_number.begin(), 0U);
+  std::size_t kept = 0;
+  for (std::size_t s = 0; s < grouping.sides.size(); ++s) {
+    const std::uint32_t part = grouping.patches.part_of_side[s];
+    if (reached[part] == 0) {
+      grouping.unreached.push_back(grouping.sides[s]);
+      continue;
+    }
+    grouping.sides[kept] = grouping.sides[s];
+    grouping.patches.part_of_side[kept++] = new_number[part];
+  }
+  grouping.sides.resize(kept);
+  grouping.patches.part_of_side.resize(kept);
+  grouping.patches.count = static_cast<std::uint32_t>(std::accumulate(reached.begin(), reached.end(), 0U));
+}
+
+/// Groups tiles, sets apart what no light reaches, and does so again with larger patches while there are too many, or
+/// once with smaller ones where much was out of reach.
+Grouping group_reached(const RayScene& rays, std::span<const float> areas, std::uint32_t max_patches, Patches& patches,
+                       const Progress& progress) {
+  patches.size = choose_size(rays.scene(), areas, max_patches);
+  for (bool first = true;; first = false) {
+    Grouping grouping = group(rays, areas, patches, progress);
+    assign(grouping, patches);
+    set_unreached_apart(find_reached(rays, patches, grouping.patches.count, progress), grouping);
+    assign(grouping, patches);
+    const float used = static_cast<float>(grouping.patch_count()) / static_cast<float>(max_patches);
+    const bool too_many = used > 1.0F && patches.size < 4.0F * diagonal(rays.scene());
+    const bool too_few = first && used < kEnoughUsed && !grouping.unreached.empty();
+    if (!too_many && !too_few) return grouping;
+    // As many as the square of the size, or a few more: splitting at what stands on them gets less.
+    patches.size *= std::sqrt(used) * 1.05F;
   }
 }
 
@@ -235,7 +304,7 @@ void set_lamps_apart(const Scene& scene, Patches& patches, Sums& sums) {
 
 /// Sets what patches are made of: means over their tiles.
 void average(const Scene& scene, const Grouping& grouping, Patches& patches) {
-  const std::uint32_t patch_count = grouping.patches.count;
+  const std::uint32_t patch_count = grouping.patch_count();
   Sums sums(patch_count);
   sum_reflectance(scene, grouping.surveys, patches, sums);
   set_lamps_apart(scene, patches, sums);
@@ -247,6 +316,7 @@ void average(const Scene& scene, const Grouping& grouping, Patches& patches) {
     patches.reflectance[p] = Rgb(sums.reflectance[p] / sums.area[p]);
     patches.glow[p] = Rgb(sums.glow[p] / sums.area[p]);
   }
+  if (patches.unreached != kNothing) patches.reflectance[patches.unreached] = Rgb(0.0F);
 }
 
 /// Spreads `points_per_patch` points over each patch, evenly by area.
@@ -313,15 +383,8 @@ Patches make_patches(const RayScene& rays, const PatchOptions& options, const Pr
     patches.tiling = make_tiles(scene, areas, 1.0F);
     return patches;
   }
-  patches.size = choose_size(scene, areas, options.max_patches);
-  Grouping grouping = group(rays, areas, patches.size, progress);
   const auto most = static_cast<std::uint32_t>(options.max_patches);
-  while (grouping.patches.count > most && patches.size < 4.0F * diagonal(scene)) {
-    patches.size *= 1.25F;
-    grouping = group(rays, areas, patches.size, progress);
-  }
-  assign(grouping, patches);
-  patches.tiling = std::move(grouping.tiling);
+  const Grouping grouping = group_reached(rays, areas, most, patches, progress);
   progress.update("patches", 0.9);
   average(scene, grouping, patches);
   place_points(scene, grouping.surveys, options.points_per_patch, patches);

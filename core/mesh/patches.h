@@ -5,7 +5,8 @@
 // are cut and dense meshes are grouped by one rule, the cost of the solution depends on neither, and the patch that a
 // ray hits follows from its barycentric coordinates by arithmetic.
 //
-// A surface that sends on both sides has two patches at each place, one for either side.
+// A surface that sends on both sides has two patches at each place, one for either side. All that no light can reach
+// (reach.h) is one patch, which sends none: what is left of the limit goes to what is lit.
 #pragma once
 
 #include <cstdint>
@@ -58,6 +59,7 @@ struct Patches {
 
   double reflectance_clamped_area = 0.0;  ///< m2 whose reflectance was lowered to kMaxReflectance
   std::uint32_t degenerate_triangle_count = 0;
+  std::uint32_t unreached = kNothing;  ///< the patch of all that no light reaches, of reflectance 0; kNothing: none
 
   std::uint32_t patch_count() const { return static_cast<std::uint32_t>(area.size()); }
   /// The patch that shows its light at a point of a triangle; kNothing if that side sends none.

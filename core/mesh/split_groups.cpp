@@ -121,8 +121,8 @@ Sorted sort_by_group(const Groups& groups) {
 
 }  // namespace
 
-std::vector<Survey> cut_straddling_tiles(const RayScene& rays, float patch_size, Tiling& tiling,
-                                         const Progress& progress) {
+std::vector<Survey> cut_straddling_tiles(const RayScene& rays, float patch_size, const TakesPart& takes_part,
+                                         Tiling& tiling, const Progress& progress) {
   const Scene& scene = rays.scene();
   const Surveyor surveyor(rays, patch_size);
   std::vector<Survey> surveys;
@@ -137,6 +137,7 @@ std::vector<Survey> cut_straddling_tiles(const RayScene& rays, float patch_size,
       const bool may_be_cut = surveyor.may_be_cut(tile);
       const bool two_sided = scene.surfaces[scene.surface_of_triangle[tile.triangle]].two_sided;
       for (int back = 0; back <= (two_sided ? 1 : 0); ++back) {
+        if (!takes_part(tile, back != 0)) continue;
         Lookout& lookout = round[k].side[back];
         lookout = surveyor.lookout(tile, back != 0);
         if (may_be_cut && cut[k] == 0 && surveyor.straddles(tile, back != 0, lookout)) cut[k] = 1;

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -37,10 +38,13 @@ struct Survey {
 /// In shares of the size of a patch: shorter tiles are not cut, whatever stands on them.
 inline constexpr float kShortestCut = 1.0F / 8.0F;
 
+/// Whether it matters what stands on a side (true: the back) of a tile. Thread-safe.
+using TakesPart = std::function<bool(const Tile&, bool)>;
+
 /// Cuts tiles that something stands on, down to a sixteenth of the size of a patch (m), and describes all that remain.
 /// Throws `Cancelled`.
-std::vector<Survey> cut_straddling_tiles(const RayScene& rays, float patch_size, Tiling& tiling,
-                                         const Progress& progress);
+std::vector<Survey> cut_straddling_tiles(const RayScene& rays, float patch_size, const TakesPart& takes_part,
+                                         Tiling& tiling, const Progress& progress);
 
 /// One side of a tile, and the group it is in.
 struct TileSide {

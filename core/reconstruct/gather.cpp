@@ -1,9 +1,33 @@
 #include "core/reconstruct/gather.h"
 
+#include <optional>
+
 #include "core/photometry.h"
 #include "core/transport/sky_light.h"
 
 namespace radiosity {
+namespace {
+
+/// What a point sees that sees nothing but backs and what no light reaches; nothing if it sees more: a patch may lie
+/// half in the dark.
+std::optional<Gathered> seen_in_the_dark(const Gatherer& gatherer, const SurfacePoint& point, std::uint32_t index) {
+  thread_local ItemBuffer buffer;
+  static const Hemicube narrow(4);
+  const glm::vec3 lifted = point.position + gatherer.offset * point.normal;
+  gatherer.items.fill(narrow, {lifted, point.normal, low_discrepancy_twist(index)}, buffer);
+  Gathered gathered;
+  for (std::size_t c = 0; c < buffer.triangle.size(); ++c) {
+    if (buffer.triangle[c] == kNothing) return std::nullopt;
+    const Patches& patches = gatherer.patches;
+    const std::uint32_t patch = patches.patch_at(buffer.triangle[c], buffer.barycentrics[c], buffer.back[c] != 0);
+    if (patch != kNothing && patch != patches.unreached) return std::nullopt;
+    if (patch == kNothing) gathered.back_share += narrow.delta_form_factors()[c];
+  }
+  return gathered;
+}
+
+}  // namespace
+
 Gathered Gatherer::at(const SurfacePoint& point, std::uint32_t index) const {
   thread_local ItemBuffer buffer;
   const Viewpoint viewpoint{point.position + offset * point.normal, point.normal, low_discrepancy_twist(index)};
@@ -30,6 +54,13 @@ Gathered Gatherer::at(const SurfacePoint& point, std::uint32_t index) const {
   if (!sky.is_constant()) luminance += luminance_of_sky(sky, hemicube, viewpoint, buffer);
   gathered.irradiance = irradiance_of_luminance(luminance, 1.0F) + direct.at(point, index);
   return gathered;
+}
+
+Gathered Gatherer::on_front(std::uint32_t triangle, Barycentrics place, const SurfacePoint& point,
+                            std::uint32_t index) const {
+  const bool unreached = patches.unreached != kNothing && patches.patch_at(triangle, place, false) == patches.unreached;
+  const std::optional<Gathered> dark = unreached ? seen_in_the_dark(*this, point, index) : std::nullopt;
+  return dark ? *dark : at(point, index);
 }
 
 }  // namespace radiosity

@@ -38,6 +38,8 @@ struct Gatherer {
 
   /// `index` picks the twist and the place in the low-discrepancy sequences.
   Gathered at(const SurfacePoint& point, std::uint32_t index) const;
+  /// The same for a point at `place` of the front of a triangle: with fewer rays where no light arrives.
+  Gathered on_front(std::uint32_t triangle, Barycentrics place, const SurfacePoint& point, std::uint32_t index) const;
 };
 
 }  // namespace radiosity

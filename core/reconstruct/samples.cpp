@@ -11,7 +11,7 @@
 namespace radiosity {
 namespace {
 
-/// In an element much larger than a patch.
+/// In an element much larger than others.
 constexpr double kMaxSamplesPerElement = 64.0;
 
 /// Sample `k` of the sequence that runs on from element to element: R2 (Roberts 2018), folded into a triangle, by the
@@ -38,21 +38,21 @@ glm::vec3 shading_normal(const RefinedMesh& mesh, const glm::uvec3& element, con
 
 /// Where the samples of each element start, [element_count + 1]. An element's share is rounded at its place in the
 /// running sum, so that many small elements get as many together as one large one.
-std::vector<std::uint32_t> allot(const RefinedMesh& mesh, const SampleOptions& options, float patch_size) {
+std::vector<std::uint32_t> allot(const RefinedMesh& mesh, const SampleOptions& options) {
   const std::size_t count = mesh.elements.size();
   std::vector<float> areas(count);
   for (std::uint32_t e = 0; e < count; ++e) areas[e] = element_area(mesh, e);
   const double total_area = std::accumulate(areas.begin(), areas.end(), 0.0);
   const double mean = total_area / static_cast<double>(std::min(count, options.max_ordinary));
-  const double half_patch = 0.5 * double{patch_size} * double{patch_size};
+  const double share_of_one = total_area / static_cast<double>(options.at_least);
 
   std::vector<std::uint32_t> first(count + 1, 0);
   const bool every_element = count <= options.max_ordinary;
   double due = 0.5;
   for (std::size_t e = 0; e < count; ++e) {
-    double wanted = areas[e] > 0.0F ? std::max(options.per_element * double{areas[e]} / mean,
-                                               every_element ? double{areas[e]} / half_patch : 0.0)
-                                    : 0.0;
+    double wanted = areas[e] > 0.0F
+                        ? std::max(options.per_element * double{areas[e]} / mean, double{areas[e]} / share_of_one)
+                        : 0.0;
     if (every_element && areas[e] > 0.0F) wanted = std::max(wanted, static_cast<double>(options.per_element));
     wanted = std::min(wanted, kMaxSamplesPerElement);
     due += wanted;
@@ -70,7 +70,9 @@ Gathered gather_sample(const RefinedMesh& mesh, const Gatherer& gatherer, std::u
   const glm::vec3 a = mesh.positions[element.x], b = mesh.positions[element.y], c = mesh.positions[element.z];
   const glm::vec3 flat = glm::normalize(glm::cross(b - a, c - a));
   SurfacePoint point{weights.x * a + weights.y * b + weights.z * c, shading_normal(mesh, element, weights, flat)};
-  Gathered gathered = gatherer.at(point, sample);
+  const auto& part = mesh.part_of_element[e].corner;
+  const Barycentrics at = weights.x * part[0] + weights.y * part[1] + weights.z * part[2];
+  Gathered gathered = gatherer.on_front(mesh.triangle_of_element[e], at, point, sample);
   const std::uint32_t surface = gatherer.scene.surface_of_triangle[mesh.triangle_of_element[e]];
   if (gathered.back_share > kBuriedShare && gatherer.scene.surfaces[surface].two_sided) {
     point.normal = -point.normal;
@@ -84,7 +86,7 @@ Gathered gather_sample(const RefinedMesh& mesh, const Gatherer& gatherer, std::u
 Samples gather_samples(const RefinedMesh& mesh, const Gatherer& gatherer, const SampleOptions& options,
                        const Progress& progress) {
   // Everywhere.
-  const std::vector<std::uint32_t> first = allot(mesh, options, gatherer.patches.size);
+  const std::vector<std::uint32_t> first = allot(mesh, options);
   const std::size_t count = mesh.elements.size(), sample_count = first.back();
   std::vector<Rgb> irradiance(sample_count);
   std::vector<std::uint8_t> buried(sample_count, 0);

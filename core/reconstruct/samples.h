@@ -13,7 +13,8 @@
 namespace radiosity {
 
 struct SampleOptions {
-  int per_element = 3;  ///< in an element of ordinary size, >= 1
+  int per_element = 3;           ///< in an element of ordinary size, >= 1
+  std::size_t at_least = 6'000;  ///< samples in all, >= 1: meshes of few elements get more in each
   std::size_t max_ordinary =
       300'000;  ///< elements of ordinary size at most: in finer meshes samples are spread by area
 };

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "core/verify/random.h"
+#include "core/random.h"
 
 namespace radiosity {
 namespace {

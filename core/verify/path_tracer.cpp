@@ -13,17 +13,6 @@ namespace {
 constexpr int kBouncesBeforeRoulette = 3;
 constexpr std::size_t kMaxLightRays = 4;  ///< to punctual lights, at each bounce
 
-/// A direction above the plane of `normal`, as densely as its cosine (density cos / pi).
-glm::vec3 cosine_direction(const glm::vec3& normal, Random& random) {
-  const float height_squared = random.share();  // of the direction above the plane, 1 - sine^2
-  const float angle = 2.0F * kPi * random.share();
-  const float sine = std::sqrt(1.0F - height_squared);
-  const glm::vec3 helper = std::abs(normal.x) > 0.9F ? glm::vec3(0.0F, 1.0F, 0.0F) : glm::vec3(1.0F, 0.0F, 0.0F);
-  const glm::vec3 u = glm::normalize(glm::cross(helper, normal));
-  const glm::vec3 v = glm::cross(normal, u);
-  return glm::normalize(sine * std::cos(angle) * u + sine * std::sin(angle) * v + std::sqrt(height_squared) * normal);
-}
-
 /// How much a sample counts that was drawn with `density`, where another technique would have drawn it with `other`.
 float power_weight(float density, float other) {
   const float square = density * density;

@@ -8,9 +8,9 @@
 // Veach and Guibas. Optimally Combining Sampling Techniques for Monte Carlo Rendering. 1995
 #pragma once
 
+#include "core/emitters.h"
+#include "core/random.h"
 #include "core/scene.h"
-#include "core/verify/emitters.h"
-#include "core/verify/random.h"
 #include "core/visibility/ray_scene.h"
 #include "core/visibility/single_ray.h"
 

@@ -4,8 +4,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "core/verify/emitters.h"
-#include "core/verify/random.h"
+#include "core/emitters.h"
+#include "core/random.h"
 #include "core/visibility/single_ray.h"
 
 namespace radiosity {

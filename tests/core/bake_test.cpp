@@ -282,6 +282,7 @@ TEST(Bake, BalancesFlux) {
                                                {"cornell by a point", punctual}};
   for (const auto& [name, scene] : scenes) {
     BakeOptions options = quick(0.5F);
+    options.max_patches = 1000;  // with 300 what two hemicubes a patch do not measure comes to a hundredth
     options.solver = Solver::kProgressive;
     const BakeReport shot = bake(scene, options, {}).report;
     EXPECT_GT(shot.emitted_flux, 0.0);
@@ -420,6 +421,20 @@ TEST(Bake, LeavesNoHaloAroundWhatStandsOnAFloor) {
       EXPECT_NEAR(baked.irradiance[v].y, 10.0F, 0.1F) << baked.mesh.positions[v].x;
     }
   }
+}
+
+TEST(Bake, LeaksNoLightIntoAWhiteBoxWhereItWouldBeReflectedAHundredTimes) {
+  Scene scene = test::sunk_box(0.99F);
+  scene.surfaces[1].two_sided = true;
+  const Bake baked = bake(scene, quick(0.1F), {});
+  int inside = 0;
+  for (std::size_t v = 0; v < baked.irradiance.size(); ++v) {
+    const glm::vec3 from_middle = glm::abs(baked.mesh.positions[v] - glm::vec3(0.13F, 0.0F, -0.21F));
+    if (from_middle.y > 1e-4F || std::max(from_middle.x, from_middle.z) > 0.35F) continue;
+    EXPECT_LT(baked.irradiance[v].y, 1e-4F) << from_middle.x << ", " << from_middle.z;
+    ++inside;
+  }
+  EXPECT_GT(inside, 20);
 }
 
 TEST(Bake, DarkensNoFloorBesideABoxThatReflects) {

@@ -94,6 +94,18 @@ TEST(Patches, KeepBelowTheirLimitWhereManyAreSplit) {
   }
 }
 
+TEST(Patches, AreOneWhereNoLightComes) {
+  // Behind the wall it is dark; the light's own room has nearly all the patches.
+  const Scene scene = test::rooms_on_one_floor(0.5F, 0.1F);
+  const Patches patches = patches_of(scene, 600);
+  ASSERT_NE(patches.unreached, kNothing);
+  EXPECT_EQ(patches.unreached, patches.patch_count() - 1);
+  EXPECT_EQ(patches.reflectance[patches.unreached], Rgb(0.0F));
+  EXPECT_GT(patches.patch_count(), 300U);
+  EXPECT_LE(patches.patch_count(), 600U);
+  EXPECT_NEAR(patches.area[patches.unreached] / (2.0 * 1.0 + 4.0 * 1.4), 1.0, 0.15);  // ends, and four long walls
+}
+
 TEST(Patches, GroupADenseMesh) {
   const Scene coarse = test::box_room({2, 1, 3}, {});
   const auto coarse_count = static_cast<double>(patches_of(coarse, 600).patch_count());

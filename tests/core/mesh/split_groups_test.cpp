@@ -28,6 +28,8 @@ glm::vec3 middle_of(const Scene& scene, const Tile& tile) {
   return point_at(scene, tile.triangle, middle_of(tile.part));
 }
 
+bool every_side(const Tile& /*tile*/, bool /*back*/) { return true; }
+
 /// A scene surveyed for patches of a given size.
 struct Surveyed {
   explicit Surveyed(Scene scene_to_survey, float patch_size)
@@ -35,7 +37,7 @@ struct Surveyed {
         rays(scene),
         size(patch_size),
         tiling(make_tiles(scene, triangle_areas(scene), 0.5F * patch_size)),
-        surveys(cut_straddling_tiles(rays, patch_size, tiling, {})) {}
+        surveys(cut_straddling_tiles(rays, patch_size, every_side, tiling, {})) {}
 
   Scene scene;
   RayScene rays;
@@ -161,7 +163,7 @@ TEST(CutStraddlingTiles, StopsWhenCancelled) {
   const RayScene rays(scene);
   Tiling tiling = make_tiles(scene, triangle_areas(scene), 0.1F);
   const Progress cancelled{.report = {}, .cancelled = [] { return true; }};
-  EXPECT_THROW(cut_straddling_tiles(rays, 0.2F, tiling, cancelled), Cancelled);
+  EXPECT_THROW(cut_straddling_tiles(rays, 0.2F, every_side, tiling, cancelled), Cancelled);
 }
 
 TEST(SplitGroups, KeepsTogetherWhatSeesEachOther) {

@@ -121,7 +121,7 @@ TEST(Samples, AreSeveralInEveryElementOfACoarseMesh) {
 
 TEST(Samples, AreMoreInALargeElement) {
   const CutFloor floor(1, 4);
-  const Samples samples = floor.samples({.per_element = 3});
+  const Samples samples = floor.samples({.per_element = 3, .at_least = 1});
   const auto count = floor.mesh.elements.size();
   for (std::uint32_t e = 0; e < count; ++e) {
     // An ordinary element has the mean area, 16 m2 / count.
@@ -131,10 +131,18 @@ TEST(Samples, AreMoreInALargeElement) {
   }
 }
 
+TEST(Samples, AreManyInAMeshOfFewElements) {
+  const CutFloor floor(1, 4);
+  const Samples samples = floor.samples({.per_element = 3, .at_least = 600});
+  EXPECT_GE(samples.sample_count(), 600U);
+  const std::vector<std::uint32_t> counts = count_by_triangle(floor.mesh, samples);
+  EXPECT_GE(counts[0], 64U * 2U);  // two or more large elements, as many as there may be in one
+}
+
 TEST(Samples, AreSpreadByAreaInAFineMesh) {
   const CutFloor floor(2, 6);  // 16 elements in one half, 4096 and those along the diagonal in the other
   ASSERT_GT(floor.mesh.elements.size(), 4000U);
-  const SampleOptions options{.per_element = 3, .max_ordinary = 500};
+  const SampleOptions options{.per_element = 3, .at_least = 1, .max_ordinary = 500};
   const Samples samples = floor.samples(options);
   EXPECT_LE(samples.sample_count(), options.max_ordinary * 3 + 1);
   const std::vector<std::uint32_t> counts = count_by_triangle(floor.mesh, samples);

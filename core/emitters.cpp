@@ -1,4 +1,4 @@
-#include "core/verify/emitters.h"
+#include "core/emitters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,12 +32,6 @@ EmitterPlace Emitters::choose(Random& random) const {
   const double flux = static_cast<double>(random.share()) * cumulative_flux_.back();
   const auto chosen = std::upper_bound(cumulative_flux_.begin(), cumulative_flux_.end() - 1, flux);
   return {triangles_[static_cast<std::size_t>(chosen - cumulative_flux_.begin())], random_place(random)};
-}
-
-Barycentrics random_place(Random& random) {
-  const float root = std::sqrt(random.share());
-  const float second = random.share();
-  return {root * (1.0F - second), root * second};
 }
 
 }  // namespace radiosity

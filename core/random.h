@@ -6,6 +6,8 @@
 
 #include <bit>
 #include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 namespace radiosity {
 
@@ -33,5 +35,11 @@ class Random {
   std::uint64_t state_ = 0;
   std::uint64_t increment_;
 };
+
+/// A point of a triangle by the weights of its corners 1 and 2, evenly distributed over its area.
+glm::vec2 random_place(Random& random);
+
+/// A direction above the plane of `normal` (unit), as densely as its cosine (density cos / pi).
+glm::vec3 cosine_direction(const glm::vec3& normal, Random& random);
 
 }  // namespace radiosity

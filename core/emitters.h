@@ -1,13 +1,13 @@
-// Emissive triangles as a path tracer aims at them: chosen in proportion to the flux that they send out.
+// Emissive triangles as random paths aim at them: chosen in proportion to the flux that they send out.
 //
-// Written for verification alone: the baker's lamps (transport/lamps.h) know nothing of it.
+// The direct light of a bake knows nothing of it: transport/lamps.h.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "core/random.h"
 #include "core/scene.h"
-#include "core/verify/random.h"
 
 namespace radiosity {
 
@@ -35,8 +35,5 @@ class Emitters {
   std::vector<double> cumulative_flux_;  ///< [triangles_.size()], up to and with each; in units of lm / pi
   std::vector<float> density_;           ///< [triangle_count], or empty where nothing emits
 };
-
-/// A point of a triangle, evenly distributed over its area.
-Barycentrics random_place(Random& random);
 
 }  // namespace radiosity
