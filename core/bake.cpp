@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <memory>
 
+#include "core/mesh/cut_mesh.h"
 #include "core/mesh/patches.h"
+#include "core/mesh/subdivide_adaptive.h"
 #include "core/parallel.h"
 #include "core/reconstruct/fit_vertices.h"
 #include "core/reconstruct/gather.h"
@@ -21,14 +23,66 @@
 namespace radiosity {
 namespace {
 
-Subdivision subdivide(const Scene& scene, const BakeOptions& options, const Progress& progress) {
-  if (!options.refine_uniform) return {unrefined(scene), false};
-  return subdivide_uniform(scene, options.subdivide, progress);
+/// Adaptive refinement may end anywhere: light is exchanged between as many patches as this many elements are worth.
+constexpr std::size_t kExpectedElements = 12'000;
+
+/// Samples that adaptive refinement starts with, at least: what falls between them is not seen.
+constexpr std::size_t kFirstSamples = 2000;
+
+/// Samples that are taken twice to know their noise.
+constexpr std::size_t kSamplesTakenAgain = 500;
+
+/// The worst of this many elements is cut in each round.
+constexpr std::size_t kShareToCut = 8;
+
+/// The display mesh: finished, or with what it takes to cut it further.
+struct Display {
+  RefinedMesh finished;
+  std::unique_ptr<CutMesh> cut;
+  std::unique_ptr<Bisector> bisector;
+  bool reached_limit = false;
+
+  const RefinedMesh& mesh() const { return cut ? cut->mesh : finished; }
+};
+
+BisectLimits limits_of(const Scene& scene, const BakeOptions& options) {
+  const std::size_t max_vertices = options.adapt.max_vertices;
+  const float min_edge = options.adapt.min_edge;
+  return {.max_vertices = max_vertices > 0 ? max_vertices : automatic_max_vertices(scene),
+          .max_elements = options.subdivide.max_elements,
+          .min_edge = min_edge > 0.0F ? min_edge : default_patch_size(scene) / 16.0F,
+          .level_of_triangle = options.subdivide.level_of_triangle};
+}
+
+Display subdivide(const Scene& scene, const BakeOptions& options, const Progress& progress) {
+  Display display;
+  if (options.refine == Refine::kNone) {
+    display.finished = unrefined(scene);
+  } else if (options.refine == Refine::kUniform) {
+    Subdivision subdivision = subdivide_uniform(scene, options.subdivide, progress);
+    display.finished = std::move(subdivision.mesh);
+    display.reached_limit = subdivision.reached_limit;
+  } else {
+    SubdivideOptions levels = options.subdivide;
+    levels.patch_size = 0.0F;
+    display.cut = std::make_unique<CutMesh>(scene);
+    display.reached_limit = subdivide_uniform(*display.cut, levels, progress);
+    display.bisector = std::make_unique<Bisector>(*display.cut, limits_of(scene, options));
+    if (options.subdivide.patch_size > 0.0F) display.bisector->bisect_longer_than(double{options.subdivide.patch_size});
+  }
+  return display;
+}
+
+RefinedMesh finished(Display display, const Scene& scene) {
+  if (!display.cut) return std::move(display.finished);
+  group_by_triangle(display.cut->mesh, scene.triangles.size());
+  return std::move(display.cut->mesh);
 }
 
 int patch_limit(const BakeOptions& options, const RefinedMesh& mesh) {
   if (options.max_patches > 0) return options.max_patches;
-  return automatic_patches(mesh.elements.size(), options.hemicube_resolution);
+  const std::size_t expected = options.refine == Refine::kAdaptive ? kExpectedElements : 0;
+  return automatic_patches(std::max(mesh.elements.size(), expected), options.hemicube_resolution);
 }
 
 bool use_raster(const Scene& scene, const BakeOptions& options) {
@@ -56,13 +110,69 @@ BakeReport describe(const RefinedMesh& mesh, const Patches& patches, const Solut
   return report;
 }
 
+std::vector<Rgb> fit(const RefinedMesh& mesh, const Samples& samples, Fit how, std::span<const Rgb> guess) {
+  return how == Fit::kInterpolate ? interpolate_vertices(mesh, mean_of_samples(samples))
+                                  : fit_vertices(mesh, samples, {}, guess);
+}
+
+/// Whether the next round of refinement is of use, and what it is to cut.
+struct NextRound {
+  RefineEnd end = RefineEnd::kNotAdaptive;
+  std::vector<std::uint32_t> elements;
+};
+
+NextRound next_round(const Display& display, const Misfit& misfit, const RefineOptions& options) {
+  if (!display.bisector) return {};
+  if (misfit.relative_rmse <= options.max_error) return {RefineEnd::kError, {}};
+  if (display.bisector->reached_limit()) return {RefineEnd::kLimit, {}};
+  std::vector<std::uint8_t> may_be_cut(misfit.of_element.size());
+  for (std::uint32_t e = 0; e < may_be_cut.size(); ++e) may_be_cut[e] = display.bisector->can_be_bisected(e) ? 1 : 0;
+  return {RefineEnd::kFloor, worst_elements(misfit, may_be_cut, misfit.of_element.size() / kShareToCut + 1)};
+}
+
+/// Light at the vertices of the display mesh, and what it took.
+struct Reconstruction {
+  Samples samples;
+  std::vector<Rgb> irradiance;
+  double estimated_error = 0.0;
+  std::uint32_t rounds = 0;
+  RefineEnd end = RefineEnd::kNotAdaptive;
+};
+
+/// Light at samples inside the elements, then at vertices; where that misses the light, the mesh is cut and sampled
+/// again.
+Reconstruction reconstruct(Display& display, const Gatherer& gatherer, const BakeOptions& options,
+                           const Progress& progress) {
+  Reconstruction light;
+  const RefinedMesh& mesh = display.mesh();
+  light.samples = gather_samples(mesh, gatherer, {.at_least = display.bisector ? kFirstSamples : 0}, progress);
+  progress.update("fit", 0.0);
+  light.irradiance = fit(mesh, light.samples, options.fit, {});
+  progress.update("fit", 1.0);
+
+  const Progress only_cancelled{nullptr, progress.cancelled};
+  const double variance = sample_variance(mesh, light.samples, gatherer, kSamplesTakenAgain, only_cancelled);
+  for (;; ++light.rounds) {
+    const Misfit misfit = measure_misfit(gatherer.scene, mesh, light.samples, light.irradiance,
+                                         {options.adapt.space, options.adapt.exposure, variance});
+    const NextRound next = next_round(display, misfit, options.adapt);
+    light.estimated_error = misfit.relative_rmse;
+    light.end = next.end;
+    if (next.elements.empty()) return light;
+    progress.update("refine", std::min(1.0, options.adapt.max_error / misfit.relative_rmse));
+    const std::vector<std::uint32_t> origin_of_element = display.bisector->bisect(next.elements);
+    append_midpoints(mesh, light.irradiance);
+    light.samples = samples_after_cuts(light.samples, mesh, origin_of_element, gatherer, {}, only_cancelled);
+    light.irradiance = fit(mesh, light.samples, options.fit, light.irradiance);
+  }
+}
+
 Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& progress) {
   // The display mesh, and the patches that light is exchanged between.
   Bake result;
-  Subdivision subdivision = subdivide(scene, options, progress);
-  result.mesh = std::move(subdivision.mesh);
+  Display display = subdivide(scene, options, progress);
   const RayScene rays(scene);
-  const Patches patches = make_patches(rays, {patch_limit(options, result.mesh), 2}, progress);
+  const Patches patches = make_patches(rays, {patch_limit(options, display.mesh()), 2}, progress);
 
   // Visibility. A fit averages over many samples, so their hemicubes are half as wide.
   const bool raster = use_raster(scene, options);
@@ -81,22 +191,25 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
   const Solution solution = options.solver == Solver::kGathering ? solve_gathering(problem, rows, progress)
                                                                  : solve_progressive(problem, rows, progress);
 
-  // Reconstruction: light at samples inside the elements, then at vertices.
+  // Reconstruction: light at samples inside the elements, then at vertices; the mesh is cut where that misses the
+  // light.
   const Gatherer gatherer{scene,        patches, sample_hemicube,    *items,
                           direct_light, sky,     solution.radiosity, surface_offset(scene)};
-  const Samples samples = gather_samples(result.mesh, gatherer, {}, progress);
-  progress.update("fit", 0.0);
-  result.irradiance = options.fit == Fit::kInterpolate ? interpolate_vertices(result.mesh, mean_of_samples(samples))
-                                                       : fit_vertices(result.mesh, samples, {});
-  progress.update("fit", 1.0);
+  Reconstruction light = reconstruct(display, gatherer, options, progress);
 
   const EnergyBalance balance = energy_balance(problem, solution, rows);
-  result.report = describe(result.mesh, patches, solution, balance, samples);
+  result.report = describe(display.mesh(), patches, solution, balance, light.samples);
   const ExchangeChecks checks = check_exchange(patches, rows);
   result.report.closure_error = checks.closure_error;
   result.report.reciprocity_error = checks.reciprocity_error;
-  result.report.reached_element_limit = subdivision.reached_limit;
+  result.report.reached_element_limit = display.reached_limit;
   result.report.visibility = raster ? Visibility::kRaster : Visibility::kRays;
+  result.report.estimated_error = light.estimated_error;
+  result.report.refine_rounds = light.rounds;
+  result.report.refine_end = light.end;
+
+  result.irradiance = std::move(light.irradiance);
+  result.mesh = finished(std::move(display), scene);
   return result;
 }
 
@@ -106,6 +219,8 @@ int automatic_patches(std::size_t element_count, int hemicube_resolution) {
   const double at_medium = std::clamp(static_cast<double>(element_count) / 3.0, 1000.0, 30'000.0);
   return std::max(1, static_cast<int>(at_medium * hemicube_resolution / 16.0));
 }
+
+std::size_t automatic_max_vertices(const Scene& scene) { return scene.positions.size() + 16'000; }
 
 Bake bake(const Scene& scene, const BakeOptions& options, const Progress& progress) {
   return on_threads(options.threads, [&] { return bake_here(scene, options, progress); });

@@ -28,6 +28,12 @@ struct RefinedMesh {
 /// The mesh of an unrefined scene: one element per triangle, in order.
 RefinedMesh unrefined(const Scene& scene);
 
+/// Appends to values at the first vertices, in order, those at the vertices behind them: the mean of the two ends.
+void append_midpoints(const RefinedMesh& mesh, std::vector<Rgb>& values);
+
+/// Sorts elements by ascending triangle, as RefinedMesh wants them; those of one triangle keep their order.
+void group_by_triangle(RefinedMesh& mesh, std::size_t triangle_count);
+
 /// Area of an element, m2.
 float element_area(const RefinedMesh& mesh, std::uint32_t element);
 
