@@ -23,8 +23,10 @@
 namespace radiosity {
 namespace {
 
-/// Adaptive refinement may end anywhere: light is exchanged between as many patches as this many elements are worth.
-constexpr std::size_t kExpectedElements = 12'000;
+/// Where adaptive refinement ends is not known when patches are made. So many elements are expected of a simple scene,
+/// and so many more for each that it starts with. With 4000 patches instead of 14 000 a dungeon was 60 % wrong at 1 %
+/// of the points, instead of 37 %.
+constexpr std::size_t kExpectedElements = 12'000, kExpectedPerElement = 3;
 
 /// Samples that adaptive refinement starts with, at least: what falls between them is not seen.
 constexpr std::size_t kFirstSamples = 2000;
@@ -81,8 +83,11 @@ RefinedMesh finished(Display display, const Scene& scene) {
 
 int patch_limit(const BakeOptions& options, const RefinedMesh& mesh) {
   if (options.max_patches > 0) return options.max_patches;
-  const std::size_t expected = options.refine == Refine::kAdaptive ? kExpectedElements : 0;
-  return automatic_patches(std::max(mesh.elements.size(), expected), options.hemicube_resolution);
+  std::size_t expected = mesh.elements.size();
+  if (options.refine == Refine::kAdaptive) {
+    expected = std::max(kExpectedElements + kExpectedPerElement * expected, 2 * options.adapt.max_vertices);
+  }
+  return automatic_patches(expected, options.hemicube_resolution);
 }
 
 bool use_raster(const Scene& scene, const BakeOptions& options) {

@@ -107,18 +107,20 @@ Misfit measure_misfit(const Scene& scene, const RefinedMesh& mesh, const Samples
     share[e].squared /= unfitted * unfitted;
   });
 
-  // The whole.
-  double squared = 0.0, value = 0.0, total = 0.0;
+  // The whole. What the samples' noise leaves in the fit is the least that is wrong.
+  double squared = 0.0, value = 0.0, total = 0.0, unknown_count = 0.0;
   for (std::uint32_t e = 0; e < share.size(); ++e) {
     const double area = has_samples(samples, e) ? double{element_area(mesh, e)} : 0.0;
     squared += area * share[e].squared;
     value += area * share[e].value;
     total += area;
+    unknown_count += unknowns[e];
   }
   Misfit misfit{std::vector<double>(share.size(), 0.0), 0.0};
   if (!(value > 0.0)) return misfit;
   const double mean = value / total;
-  misfit.relative_rmse = std::sqrt(std::max(0.0, squared / total - options.variance)) / mean;
+  const double noise = options.variance * unknown_count / static_cast<double>(samples.sample_count());
+  misfit.relative_rmse = std::sqrt(std::max(noise, squared / total - options.variance)) / mean;
 
   for (std::uint32_t e = 0; e < share.size(); ++e) {
     const double weight = options.space == ErrorSpace::kLinear ? 1.0 : 2.0 * mean / (mean + share[e].value);
