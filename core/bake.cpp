@@ -34,9 +34,6 @@ constexpr std::size_t kFirstSamples = 2000;
 /// Samples that are taken twice to know their noise.
 constexpr std::size_t kSamplesTakenAgain = 500;
 
-/// The worst of this many elements is cut in each round.
-constexpr std::size_t kShareToCut = 8;
-
 /// The display mesh: finished, or with what it takes to cut it further.
 struct Display {
   RefinedMesh finished;
@@ -132,7 +129,7 @@ NextRound next_round(const Display& display, const Misfit& misfit, const RefineO
   if (display.bisector->reached_limit()) return {RefineEnd::kLimit, {}};
   std::vector<std::uint8_t> may_be_cut(misfit.of_element.size());
   for (std::uint32_t e = 0; e < may_be_cut.size(); ++e) may_be_cut[e] = display.bisector->can_be_bisected(e) ? 1 : 0;
-  return {RefineEnd::kFloor, worst_elements(misfit, may_be_cut, misfit.of_element.size() / kShareToCut + 1)};
+  return {RefineEnd::kFloor, worst_elements(misfit, may_be_cut)};
 }
 
 /// Light at the vertices of the display mesh, and what it took.
@@ -166,7 +163,7 @@ Reconstruction reconstruct(Display& display, const Gatherer& gatherer, const Bak
     if (next.elements.empty()) return light;
     progress.update("refine", std::min(1.0, options.adapt.max_error / misfit.relative_rmse));
     const std::vector<std::uint32_t> origin_of_element = display.bisector->bisect(next.elements);
-    append_midpoints(mesh, light.irradiance);
+    append_cuts(mesh, light.irradiance);
     light.samples = samples_after_cuts(light.samples, mesh, origin_of_element, gatherer, {}, only_cancelled);
     light.irradiance = fit(mesh, light.samples, options.fit, light.irradiance);
   }

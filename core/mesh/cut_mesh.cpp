@@ -9,12 +9,12 @@ namespace {
 /// Halfway between two positions, the same from either end.
 glm::vec3 midpoint(const glm::vec3& a, const glm::vec3& b) { return 0.5F * a + 0.5F * b; }
 
-/// Halfway between two shading normals, of unit length again; zero if either is (shaded flat).
-glm::vec3 mid_normal(const glm::vec3& a, const glm::vec3& b) {
+/// A shading normal between two, of unit length again; zero if either is (shaded flat).
+glm::vec3 normal_between(const glm::vec3& a, const glm::vec3& b, float at) {
   if (a == glm::vec3(0.0F) || b == glm::vec3(0.0F)) {
     return glm::vec3(0.0F);
   }
-  const glm::vec3 sum = a + b;
+  const glm::vec3 sum = (1.0F - at) * a + at * b;
   const float length = glm::length(sum);
   return length > 0.0F ? sum / length : a;  // opposite normals have no middle
 }
@@ -59,17 +59,24 @@ bool CutMesh::can_be_halved(const glm::uvec2& end_classes) const {
 }
 
 std::uint32_t CutMesh::add_midpoint(const glm::uvec2& ends) {
-  const auto vertex = static_cast<std::uint32_t>(mesh.positions.size());
-  mesh.midpoints.emplace_back(std::min(ends.x, ends.y), std::max(ends.x, ends.y));
+  const glm::uvec2 in_order(std::min(ends.x, ends.y), std::max(ends.x, ends.y));
+  mesh.cuts.push_back({in_order, 0.5F});
   mesh.positions.push_back(midpoint(mesh.positions[ends.x], mesh.positions[ends.y]));
-  mesh.normals.push_back(mid_normal(mesh.normals[ends.x], mesh.normals[ends.y]));
-  return vertex;
+  mesh.normals.push_back(normal_between(mesh.normals[in_order.x], mesh.normals[in_order.y], 0.5F));
+  return static_cast<std::uint32_t>(mesh.positions.size()) - 1;
+}
+
+std::uint32_t CutMesh::add_cut(const Cut& cut, std::uint32_t position_class) {
+  mesh.cuts.push_back(cut);
+  mesh.positions.push_back(welder.positions()[position_class]);
+  mesh.normals.push_back(normal_between(mesh.normals[cut.ends.x], mesh.normals[cut.ends.y], cut.at));
+  return static_cast<std::uint32_t>(mesh.positions.size()) - 1;
 }
 
 std::array<std::uint32_t, 2> CutMesh::halve(std::uint32_t edge, const std::array<std::uint32_t, 2>& midpoint_of_side) {
   const glm::uvec2 ends = bridge.end_classes(edge);
   const glm::vec3 middle = midpoint(welder.positions()[ends.x], welder.positions()[ends.y]);
-  return bridge.halve(edge, welder.class_of(middle), middle, midpoint_of_side);
+  return bridge.cut(edge, 0.5F, welder.class_of(middle), middle, midpoint_of_side);
 }
 
 }  // namespace radiosity

@@ -28,8 +28,10 @@ struct CutMesh {
 
   /// A new vertex halfway between two of one glTF primitive.
   std::uint32_t add_midpoint(const glm::uvec2& ends);
-  /// Halves an edge; side i names the midpoint `midpoint_of_side[i]`, made by add_midpoint(). Returns
-  /// the elements that are new on each side, see OpenMeshBridge::halve().
+  /// A new vertex anywhere between them, at the position of a class.
+  std::uint32_t add_cut(const Cut& cut, std::uint32_t position_class);
+  /// Halves an edge; side i names the midpoint `midpoint_of_side[i]`, made by add_midpoint(). Returns the elements that
+  /// are new on each side, see OpenMeshBridge::cut().
   std::array<std::uint32_t, 2> halve(std::uint32_t edge, const std::array<std::uint32_t, 2>& midpoint_of_side);
   void write_elements() { bridge.write_elements(mesh); }
 

@@ -3,6 +3,7 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/System/omstream.hh>
 #include <algorithm>
+#include <glm/common.hpp>
 #include <tuple>
 #include <vector>
 
@@ -242,9 +243,9 @@ void OpenMeshBridge::begin_round(std::size_t edges, std::size_t sides) {
 //   before     after      ->     before  |   after        A halfedge's corner is the one at its end.
 //     /          \                  /    | \                                                                       .
 //  start --------> end          start --mid---> end
-std::array<std::uint32_t, 2> OpenMeshBridge::halve(std::uint32_t edge, std::uint32_t position_class,
-                                                   const glm::vec3& position,
-                                                   const std::array<std::uint32_t, 2>& midpoint_of_side) {
+std::array<std::uint32_t, 2> OpenMeshBridge::cut(std::uint32_t edge, float at, std::uint32_t position_class,
+                                                 const glm::vec3& position,
+                                                 const std::array<std::uint32_t, 2>& vertex_of_side) {
   Net& net = *net_;
   struct Half {
     HalfedgeHandle after, before;
@@ -264,7 +265,9 @@ std::array<std::uint32_t, 2> OpenMeshBridge::halve(std::uint32_t edge, std::uint
     half.before = net.mesh.prev_halfedge_handle(halfedge);
     half.start = net.mesh.property(net.corner, half.before);
     half.end = net.mesh.property(net.corner, halfedge);
-    half.middle = {midpoint_of_side[which], 0.5F * (half.start.at + half.end.at)};
+    const bool forwards =
+        net.mesh.property(net.position_class, net.mesh.to_vertex_handle(halfedge)) == end_classes(edge).y;
+    half.middle = {vertex_of_side[which], glm::mix(half.start.at, half.end.at, forwards ? at : 1.0F - at)};
     half.triangle = net.mesh.property(net.triangle, net.mesh.face_handle(halfedge));
   }
 

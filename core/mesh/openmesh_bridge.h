@@ -53,12 +53,12 @@ class OpenMeshBridge {
 
   /// Opens a round in which `edges` edges, `sides` triangles at them counted, will be halved: those that exist now.
   void begin_round(std::size_t edges, std::size_t sides);
-  /// Halves an edge: at `position`, which is that of class `position_class`. Side i names the midpoint
-  /// `midpoint_of_side[i]`. The edge keeps its number for one of the halves; the element on each side keeps its number
-  /// for one of its halves; returns
-  /// the number of the other half on each side, kNothing where there is no element.
-  std::array<std::uint32_t, 2> halve(std::uint32_t edge, std::uint32_t position_class, const glm::vec3& position,
-                                     const std::array<std::uint32_t, 2>& midpoint_of_side);
+  /// Cuts an edge in two: at `position`, which is that of class `position_class`, `at` (0,1) of the way from the first
+  /// of its end_classes() to the second. Side i names the new vertex `vertex_of_side[i]`. The edge keeps its number for
+  /// one of the parts; the element on each side keeps its number for one of its parts; returns the number of the other
+  /// part on each side, kNothing where there is no element.
+  std::array<std::uint32_t, 2> cut(std::uint32_t edge, float at, std::uint32_t position_class,
+                                   const glm::vec3& position, const std::array<std::uint32_t, 2>& vertex_of_side);
   /// Turns edges inside the triangles of this round so that the cut is the one drawn in subdivide_uniform.h.
   void end_round();
 

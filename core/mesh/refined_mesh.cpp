@@ -1,5 +1,6 @@
 #include "core/mesh/refined_mesh.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <utility>
@@ -18,10 +19,10 @@ RefinedMesh unrefined(const Scene& scene) {
   return mesh;
 }
 
-void append_midpoints(const RefinedMesh& mesh, std::vector<Rgb>& values) {
+void append_cuts(const RefinedMesh& mesh, std::vector<Rgb>& values) {
   for (std::size_t v = values.size(); v < mesh.positions.size(); ++v) {
-    const glm::uvec2& ends = mesh.midpoints[v - mesh.scene_vertex_count];
-    values.push_back(0.5F * (values[ends.x] + values[ends.y]));
+    const Cut& cut = mesh.cuts[v - mesh.scene_vertex_count];
+    values.push_back(glm::mix(values[cut.ends.x], values[cut.ends.y], cut.at));
   }
 }
 

@@ -3,8 +3,8 @@
 //        /\                     The long edge below is open: no other element has it. So are the two above it, and the
 //       /  \  . . . .           vertex between those lies inside it. Light that is interpolated along both differs, and
 //      /____\/_______\          rounding lets the background through.
-//      \             /                                                                                                 .
-//       \___________/                                                                                                  .
+//      \             / .
+//       \___________/ .
 //
 // What merely touches is no crack: a box whose corner stands on an edge of the floor, with floor on both sides.
 #pragma once

@@ -17,6 +17,10 @@ namespace {
 /// No sample counts as if it had more of the fit at its place for itself.
 constexpr double kMostLeverage = 0.75;
 
+/// What is cut in one round: the more at once, the more is cut that would have come right by itself.
+constexpr double kShareOfMisfit = 0.5;
+constexpr std::size_t kMostShare = 8, kLeastShare = 64;  ///< one in this many elements
+
 bool has_samples(const Samples& samples, std::uint32_t e) {
   return samples.first_of_element[e + 1] > samples.first_of_element[e];
 }
@@ -149,17 +153,24 @@ double sample_variance(const RefinedMesh& mesh, const Samples& samples, const Ga
   return squared.empty() ? 0.0 : sum / static_cast<double>(squared.size());
 }
 
-std::vector<std::uint32_t> worst_elements(const Misfit& misfit, std::span<const std::uint8_t> may_be_cut,
-                                          std::size_t count) {
+std::vector<std::uint32_t> worst_elements(const Misfit& misfit, std::span<const std::uint8_t> may_be_cut) {
   std::vector<std::uint32_t> elements;
+  double left = 0.0;
   for (std::uint32_t e = 0; e < misfit.of_element.size(); ++e) {
-    if (may_be_cut[e] != 0 && misfit.of_element[e] > 0.0) elements.push_back(e);
+    if (may_be_cut[e] == 0 || !(misfit.of_element[e] > 0.0)) continue;
+    elements.push_back(e);
+    left += kShareOfMisfit * misfit.of_element[e];
   }
   const auto is_worse = [&misfit](std::uint32_t a, std::uint32_t b) {
     return misfit.of_element[a] != misfit.of_element[b] ? misfit.of_element[a] > misfit.of_element[b] : a < b;
   };
-  const std::size_t taken = std::min(count, elements.size());
-  std::partial_sort(elements.begin(), elements.begin() + static_cast<std::ptrdiff_t>(taken), elements.end(), is_worse);
+  const std::size_t count = misfit.of_element.size();
+  const std::size_t most = std::min(count / kMostShare + 1, elements.size());
+  std::partial_sort(elements.begin(), elements.begin() + static_cast<std::ptrdiff_t>(most), elements.end(), is_worse);
+  std::size_t taken = 0;
+  for (; taken < most && (left > 0.0 || taken < count / kLeastShare + 1); ++taken) {
+    left -= misfit.of_element[elements[taken]];
+  }
   elements.resize(taken);
   return elements;
 }

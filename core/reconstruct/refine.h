@@ -46,8 +46,8 @@ Misfit measure_misfit(const Scene& scene, const RefinedMesh& mesh, const Samples
 double sample_variance(const RefinedMesh& mesh, const Samples& samples, const Gatherer& gatherer, std::size_t count,
                        const Progress& progress);
 
-/// The `count` elements with most misfit, worst first, of those that have any and that `may_be_cut` [element_count].
-std::vector<std::uint32_t> worst_elements(const Misfit& misfit, std::span<const std::uint8_t> may_be_cut,
-                                          std::size_t count);
+/// What to cut next: of those elements that `may_be_cut` [element_count], worst first, as many as have half of all
+/// their misfit, but an eighth of all elements at most and a 64th at least.
+std::vector<std::uint32_t> worst_elements(const Misfit& misfit, std::span<const std::uint8_t> may_be_cut);
 
 }  // namespace radiosity

@@ -52,15 +52,15 @@ class Conformity {
  private:
   void check_vertices() {
     ASSERT_EQ(mesh_.scene_vertex_count, scene_.positions.size());
-    ASSERT_EQ(mesh_.positions.size(), mesh_.scene_vertex_count + mesh_.midpoints.size());
+    ASSERT_EQ(mesh_.positions.size(), mesh_.scene_vertex_count + mesh_.cuts.size());
     ASSERT_EQ(mesh_.normals.size(), mesh_.positions.size());
     for (std::size_t i = 0; i < scene_.positions.size(); ++i) {
       ASSERT_EQ(mesh_.positions[i], scene_.positions[i]);
       ASSERT_EQ(mesh_.normals[i], scene_.normals[i]);
     }
     std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
-    for (std::size_t k = 0; k < mesh_.midpoints.size(); ++k) {
-      const glm::uvec2 ends = mesh_.midpoints[k];
+    for (std::size_t k = 0; k < mesh_.cuts.size(); ++k) {
+      const glm::uvec2 ends = mesh_.cuts[k].ends;
       ASSERT_LT(std::max(ends.x, ends.y), mesh_.scene_vertex_count + k) << "a midpoint of a later vertex";
       EXPECT_EQ(mesh_.positions[mesh_.scene_vertex_count + k],
                 0.5F * mesh_.positions[ends.x] + 0.5F * mesh_.positions[ends.y]);

@@ -63,7 +63,7 @@ TEST(SubdivideUniform, LeavesASceneAloneThatNobodyAsksToCut) {
   for (const Subdivision& result : {cut_to_size(scene, 0.0F), cut_to_size(scene, 10.0F),
                                     cut_to_levels(scene, std::vector<std::int8_t>(scene.triangles.size(), 0), 0.01F)}) {
     EXPECT_EQ(result.mesh.elements, scene.triangles);
-    EXPECT_TRUE(result.mesh.midpoints.empty());
+    EXPECT_TRUE(result.mesh.cuts.empty());
     EXPECT_FALSE(result.reached_limit);
     expect_conforming(scene, result.mesh);
   }
@@ -172,7 +172,7 @@ TEST(SubdivideUniform, ASeamStaysASeam) {
   EXPECT_EQ(mesh.positions.size(), 2U * 15U);
   EXPECT_EQ(weld(mesh.positions).class_count, 25U);
   std::vector<int> side_of_vertex = {0, 0, 0, 1, 1, 1};
-  for (const glm::uvec2& ends : mesh.midpoints) {
+  for (const auto& [ends, at] : mesh.cuts) {
     EXPECT_EQ(side_of_vertex[ends.x], side_of_vertex[ends.y]) << "a midpoint reaches across the seam";
     side_of_vertex.push_back(side_of_vertex[ends.x]);
   }
@@ -192,7 +192,7 @@ TEST(SubdivideUniform, AThirdTriangleAtAnEdgeSharesItsMidpoint) {
   Scene scene = scene_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}}, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
   const RefinedMesh mesh = cut_to_levels(scene, {1, 0, 0}).mesh;
   EXPECT_THAT(elements_per_triangle(scene, mesh), ElementsAre(4, 2, 2));
-  EXPECT_EQ(mesh.midpoints.size(), 3U);
+  EXPECT_EQ(mesh.cuts.size(), 3U);
   expect_conforming(scene, mesh);
 }
 
@@ -233,7 +233,7 @@ TEST(SubdivideUniform, AFanOfAnySizeConforms) {
   scene.surface_of_triangle.assign(kCount, 0);
   const RefinedMesh mesh = cut_to_levels(scene, std::vector<std::int8_t>(kCount, 1)).mesh;
   EXPECT_EQ(mesh.elements.size(), 4U * kCount);
-  EXPECT_EQ(mesh.midpoints.size(), 2U * kCount) << "one for each edge";
+  EXPECT_EQ(mesh.cuts.size(), 2U * kCount) << "one for each edge";
   expect_conforming(scene, mesh);
 }
 
@@ -291,8 +291,8 @@ TEST(SubdivideUniform, ShadingNormalsStayUnitOrZero) {
     EXPECT_TRUE(length == 0.0F || std::abs(length - 1.0F) < 1e-6F) << length;
   }
   const RefinedMesh once = cut_to_levels(scene, {1, 0}).mesh;
-  for (std::size_t k = 0; k < once.midpoints.size(); ++k) {
-    if (once.midpoints[k] == glm::uvec2(0, 1)) {
+  for (std::size_t k = 0; k < once.cuts.size(); ++k) {
+    if (once.cuts[k].ends == glm::uvec2(0, 1)) {
       EXPECT_LT(glm::distance(once.normals[4 + k], glm::normalize(glm::vec3(1, 1, 0))), 1e-6F);
     }
   }
@@ -312,7 +312,7 @@ TEST(SubdivideUniform, GivesTheSameBytesTwice) {
   const RefinedMesh a = cut_to_size(scene, 0.3F).mesh;
   const RefinedMesh b = cut_to_size(scene, 0.3F).mesh;
   EXPECT_EQ(a.elements, b.elements);
-  EXPECT_EQ(a.midpoints, b.midpoints);
+  EXPECT_EQ(a.cuts, b.cuts);
   ASSERT_EQ(a.positions.size(), b.positions.size());
   EXPECT_EQ(std::memcmp(a.positions.data(), b.positions.data(), a.positions.size() * sizeof(glm::vec3)), 0);
 }
