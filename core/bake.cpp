@@ -31,8 +31,8 @@ constexpr std::size_t kExpectedElements = 12'000, kExpectedPerElement = 3;
 /// Samples that adaptive refinement starts with, at least: what falls between them is not seen.
 constexpr std::size_t kFirstSamples = 2000;
 
-/// Samples that are taken twice to know their noise.
-constexpr std::size_t kSamplesTakenAgain = 500;
+/// Places where the error of the whole is checked.
+constexpr std::size_t kPlacesToCheck = 400;
 
 /// The display mesh: finished, or with what it takes to cut it further.
 struct Display {
@@ -117,19 +117,24 @@ std::vector<Rgb> fit(const RefinedMesh& mesh, const Samples& samples, Fit how, s
                                   : fit_vertices(mesh, samples, {}, guess);
 }
 
-/// Whether the next round of refinement is of use, and what it is to cut.
-struct NextRound {
-  RefineEnd end = RefineEnd::kNotAdaptive;
-  std::vector<std::uint32_t> elements;
-};
+/// Checks are dear: the next one comes when the mesh may have become good enough. Errors go down with the square root
+/// of the elements or faster.
+std::size_t elements_at_next_check(std::size_t element_count, double error, double wanted) {
+  return static_cast<std::size_t>(static_cast<double>(element_count) *
+                                  std::clamp(std::pow(error / wanted, 1.5), 1.1, 2.0));
+}
 
-NextRound next_round(const Display& display, const Misfit& misfit, const RefineOptions& options) {
-  if (!display.bisector) return {};
-  if (misfit.relative_rmse <= options.max_error) return {RefineEnd::kError, {}};
-  if (display.bisector->reached_limit()) return {RefineEnd::kLimit, {}};
+/// Part of the error that is allowed goes to the transport of light: about 1 % in a Cornell box.
+double error_left_to_mesh(double max_error) {
+  const double of_transport = std::min(0.01, 0.5 * max_error);
+  return std::sqrt(max_error * max_error - of_transport * of_transport);
+}
+
+/// What the next round of refinement is to cut.
+std::vector<std::uint32_t> next_to_cut(const Bisector& bisector, const Misfit& misfit) {
   std::vector<std::uint8_t> may_be_cut(misfit.of_element.size());
-  for (std::uint32_t e = 0; e < may_be_cut.size(); ++e) may_be_cut[e] = display.bisector->can_be_bisected(e) ? 1 : 0;
-  return {RefineEnd::kFloor, worst_elements(misfit, may_be_cut)};
+  for (std::uint32_t e = 0; e < may_be_cut.size(); ++e) may_be_cut[e] = bisector.can_be_bisected(e) ? 1 : 0;
+  return worst_elements(misfit, may_be_cut);
 }
 
 /// Light at the vertices of the display mesh, and what it took.
@@ -153,16 +158,32 @@ Reconstruction reconstruct(Display& display, const Gatherer& gatherer, const Bak
   progress.update("fit", 1.0);
 
   const Progress only_cancelled{nullptr, progress.cancelled};
-  const double variance = sample_variance(mesh, light.samples, gatherer, kSamplesTakenAgain, only_cancelled);
-  for (;; ++light.rounds) {
-    const Misfit misfit = measure_misfit(gatherer.scene, mesh, light.samples, light.irradiance,
-                                         {options.adapt.space, options.adapt.exposure, variance});
-    const NextRound next = next_round(display, misfit, options.adapt);
-    light.estimated_error = misfit.relative_rmse;
-    light.end = next.end;
-    if (next.elements.empty()) return light;
-    progress.update("refine", std::min(1.0, options.adapt.max_error / misfit.relative_rmse));
-    const std::vector<std::uint32_t> origin_of_element = display.bisector->bisect(next.elements);
+  const MisfitOptions how{options.adapt.space, options.adapt.exposure};
+  const double max_error = error_left_to_mesh(options.adapt.max_error);
+  for (std::size_t check_at = 0;; ++light.rounds) {
+    // How good it is, and why to go on.
+    const Misfit misfit = measure_misfit(gatherer.scene, mesh, light.samples, light.irradiance, how);
+    std::vector<std::uint32_t> to_cut;
+    if (display.bisector && !display.bisector->reached_limit()) to_cut = next_to_cut(*display.bisector, misfit);
+    const bool is_checked = to_cut.empty() || mesh.elements.size() >= check_at;
+    if (is_checked) {
+      light.estimated_error =
+          check_error(mesh, light.samples, light.irradiance, misfit, gatherer, kPlacesToCheck, how, only_cancelled);
+      check_at = elements_at_next_check(mesh.elements.size(), light.estimated_error, max_error);
+    }
+    if (!display.bisector) return light;
+    if (is_checked && light.estimated_error <= max_error) {
+      light.end = RefineEnd::kError;
+      return light;
+    }
+    if (to_cut.empty()) {
+      light.end = display.bisector->reached_limit() ? RefineEnd::kLimit : RefineEnd::kFloor;
+      return light;
+    }
+
+    // Cut, sample, fit.
+    progress.update("refine", std::min(1.0, max_error / light.estimated_error));
+    const std::vector<std::uint32_t> origin_of_element = display.bisector->bisect(to_cut);
     append_cuts(mesh, light.irradiance);
     light.samples = samples_after_cuts(light.samples, mesh, origin_of_element, gatherer, {}, only_cancelled);
     light.irradiance = fit(mesh, light.samples, options.fit, light.irradiance);

@@ -9,13 +9,9 @@
 
 #include "core/parallel.h"
 #include "core/reconstruct/shown_light.h"
-#include "core/reconstruct/smooth_groups.h"
 
 namespace radiosity {
 namespace {
-
-/// No sample counts as if it had more of the fit at its place for itself.
-constexpr double kMostLeverage = 0.75;
 
 /// What is cut in one round: the more at once, the more is cut that would have come right by itself.
 constexpr double kShareOfMisfit = 0.5;
@@ -25,72 +21,61 @@ bool has_samples(const Samples& samples, std::uint32_t e) {
   return samples.first_of_element[e + 1] > samples.first_of_element[e];
 }
 
-/// How many of the fit's unknowns fall to each element: each vertex is dealt to the elements around it, by area.
-std::vector<double> unknowns_per_element(const RefinedMesh& mesh, const Samples& samples) {
-  const SmoothGroups groups = find_smooth_groups(mesh);
-  std::vector<double> area(mesh.elements.size(), 0.0), area_around(groups.group_count, 0.0);
-  for (std::uint32_t e = 0; e < area.size(); ++e) {
-    if (!has_samples(samples, e)) continue;
-    area[e] = double{element_area(mesh, e)};
-    for (int k = 0; k < 3; ++k) area_around[groups.group_of_vertex[mesh.elements[e][k]]] += area[e];
-  }
-  std::vector<double> unknowns(area.size(), 0.0);
-  for (std::uint32_t e = 0; e < area.size(); ++e) {
-    if (!(area[e] > 0.0)) continue;
-    for (int k = 0; k < 3; ++k) unknowns[e] += area[e] / area_around[groups.group_of_vertex[mesh.elements[e][k]]];
-  }
-  return unknowns;
-}
+/// What an element shows, and what of the truth it could show.
+struct ElementView {
+  glm::vec3 at_corners{0.0F};  ///< luminance, cd/m2
+  Rgb most{std::numeric_limits<float>::max()};
 
-/// What one element adds to the misfit of the whole.
-struct Share {
-  double squared = 0.0;  ///< mean squared residual, (cd/m2)^2
-  double value = 0.0;    ///< mean luminance, cd/m2
+  /// Displayed less true luminance where the corners have these weights and `light` is what should be shown.
+  double residual(const glm::vec3& weights, const Rgb& light) const {
+    return double{glm::dot(weights, at_corners)} - double{luminance_of(glm::min(light, most))};
+  }
 };
 
-Share share_of(std::uint32_t e, const RefinedMesh& mesh, const Samples& samples, std::span<const Rgb> irradiance,
-               const ShownLight& shown, const Rgb& white) {
-  // What the corners show, and what hides what is brighter: bands that are white at all of them.
-  glm::vec3 at_corners;
-  Rgb least(std::numeric_limits<float>::max());
+ElementView view_of(std::uint32_t e, const RefinedMesh& mesh, std::span<const Rgb> irradiance, const ShownLight& shown,
+                    const Rgb& white) {
+  ElementView view;
+  Rgb least = view.most;
   for (int k = 0; k < 3; ++k) {
     const Rgb light = shown.under(e, irradiance[mesh.elements[e][k]]);
-    at_corners[k] = luminance_of(glm::min(light, white));
+    view.at_corners[k] = luminance_of(glm::min(light, white));
     least = glm::min(least, light);
   }
-  Rgb most(std::numeric_limits<float>::max());
   for (int band = 0; band < 3; ++band) {
-    if (least[band] >= white[band]) most[band] = white[band];
+    if (least[band] >= white[band]) view.most[band] = white[band];
   }
-
-  Share share;
-  const std::uint32_t first = samples.first_of_element[e], last = samples.first_of_element[e + 1];
-  const double count = last - first;
-  for (std::uint32_t s = first; s < last; ++s) {
-    const double truth = double{luminance_of(glm::min(shown.under(e, samples.irradiance[s]), most))};
-    const double residual = double{glm::dot(samples.weights[s], at_corners)} - truth;
-    share.squared += residual * residual / count;
-    share.value += truth / count;
-  }
-  return share;
+  return view;
 }
 
-/// Samples at equal steps of area over the whole surface.
-std::vector<std::uint32_t> spread_by_area(const RefinedMesh& mesh, const Samples& samples, std::size_t count) {
-  double total = 0.0;
-  for (std::uint32_t e = 0; e < mesh.elements.size(); ++e) {
-    if (has_samples(samples, e)) total += double{element_area(mesh, e)};
+/// Brighter than this is white, cd/m2.
+Rgb white_of(const RefinedMesh& mesh, const Samples& samples, const ShownLight& shown, float exposure) {
+  return Rgb(1.0F / (exposure > 0.0F ? exposure : exposure_of(mesh, samples, shown)));
+}
+
+/// A place where the error is checked.
+struct Check {
+  std::uint32_t element = 0;
+  double weight = 0.0;  ///< the surface that it stands for, m2, but for a factor common to all
+};
+
+/// Half of them spread by area, half by misfit.
+std::vector<Check> places_to_check(const RefinedMesh& mesh, const Samples& samples, const Misfit& misfit,
+                                   std::size_t count) {
+  double area = 0.0, squared = 0.0;
+  for (std::uint32_t e = 0; e < misfit.squared.size(); ++e) {
+    if (has_samples(samples, e)) area += double{element_area(mesh, e)};
+    squared += misfit.squared[e];
   }
-  std::vector<std::uint32_t> chosen;
+  std::vector<Check> checks;
   double due = 0.5;
-  for (std::uint32_t e = 0; e < mesh.elements.size(); ++e) {
-    const std::uint32_t first = samples.first_of_element[e], last = samples.first_of_element[e + 1];
-    for (std::uint32_t s = first; s < last; ++s) {
-      due += static_cast<double>(count) * double{element_area(mesh, e)} / (total * (last - first));
-      for (; due >= 1.0; due -= 1.0) chosen.push_back(s);
-    }
+  for (std::uint32_t e = 0; e < misfit.squared.size(); ++e) {
+    if (!has_samples(samples, e)) continue;
+    const double by_area = double{element_area(mesh, e)} / area;
+    const double share = squared > 0.0 ? 0.5 * by_area + 0.5 * misfit.squared[e] / squared : by_area;
+    due += static_cast<double>(count) * share;
+    for (; due >= 1.0; due -= 1.0) checks.push_back({e, by_area / share});
   }
-  return chosen;
+  return checks;
 }
 
 }  // namespace
@@ -99,58 +84,70 @@ Misfit measure_misfit(const Scene& scene, const RefinedMesh& mesh, const Samples
                       std::span<const Rgb> irradiance, const MisfitOptions& options) {
   // Each element by itself.
   const ShownLight shown = shown_light(scene, mesh);
-  const std::vector<double> unknowns = unknowns_per_element(mesh, samples);
-  const Rgb white(1.0F / (options.exposure > 0.0F ? options.exposure : exposure_of(mesh, samples, shown)));
-  std::vector<Share> share(mesh.elements.size());
-  parallel_in_chunks(share.size(), share.size(), {}, "", [&](std::size_t element) {
+  const Rgb white = white_of(mesh, samples, shown, options.exposure);
+  const std::size_t element_count = mesh.elements.size();
+  std::vector<double> value(element_count, 0.0), area(element_count, 0.0);
+  Misfit misfit{std::vector<double>(element_count, 0.0), std::vector<double>(element_count, 0.0)};
+  parallel_in_chunks(element_count, element_count, {}, "", [&](std::size_t element) {
     const auto e = static_cast<std::uint32_t>(element);
     if (!has_samples(samples, e)) return;
-    share[e] = share_of(e, mesh, samples, irradiance, shown, white);
-    const double count = samples.first_of_element[e + 1] - samples.first_of_element[e];
-    const double unfitted = 1.0 - std::min(kMostLeverage, unknowns[e] / count);
-    share[e].squared /= unfitted * unfitted;
+    const ElementView view = view_of(e, mesh, irradiance, shown, white);
+    const std::uint32_t first = samples.first_of_element[e], last = samples.first_of_element[e + 1];
+    const double count = last - first;
+    area[e] = double{element_area(mesh, e)};
+    for (std::uint32_t s = first; s < last; ++s) {
+      const Rgb light = shown.under(e, samples.irradiance[s]);
+      const double residual = view.residual(samples.weights[s], light);
+      misfit.squared[e] += area[e] * residual * residual / count;
+      value[e] += double{luminance_of(glm::min(light, view.most))} / count;
+    }
   });
 
-  // The whole. What the samples' noise leaves in the fit is the least that is wrong.
-  double squared = 0.0, value = 0.0, total = 0.0, unknown_count = 0.0;
-  for (std::uint32_t e = 0; e < share.size(); ++e) {
-    const double area = has_samples(samples, e) ? double{element_area(mesh, e)} : 0.0;
-    squared += area * share[e].squared;
-    value += area * share[e].value;
-    total += area;
-    unknown_count += unknowns[e];
+  // The whole.
+  double total = 0.0, total_area = 0.0;
+  for (std::size_t e = 0; e < element_count; ++e) {
+    total += area[e] * value[e];
+    total_area += area[e];
   }
-  Misfit misfit{std::vector<double>(share.size(), 0.0), 0.0};
-  if (!(value > 0.0)) return misfit;
-  const double mean = value / total;
-  const double noise = options.variance * unknown_count / static_cast<double>(samples.sample_count());
-  misfit.relative_rmse = std::sqrt(std::max(noise, squared / total - options.variance)) / mean;
+  if (!(total > 0.0)) return misfit;
+  misfit.mean = total / total_area;
 
-  for (std::uint32_t e = 0; e < share.size(); ++e) {
-    const double weight = options.space == ErrorSpace::kLinear ? 1.0 : 2.0 * mean / (mean + share[e].value);
-    misfit.of_element[e] = double{element_area(mesh, e)} * share[e].squared * weight;
+  for (std::size_t e = 0; e < element_count; ++e) {
+    const bool linear = options.space == ErrorSpace::kLinear;
+    misfit.of_element[e] = misfit.squared[e] * (linear ? 1.0 : 2.0 * misfit.mean / (misfit.mean + value[e]));
   }
   return misfit;
 }
 
-double sample_variance(const RefinedMesh& mesh, const Samples& samples, const Gatherer& gatherer, std::size_t count,
-                       const Progress& progress) {
+double check_error(const RefinedMesh& mesh, const Samples& samples, std::span<const Rgb> irradiance,
+                   const Misfit& misfit, const Gatherer& gatherer, std::size_t place_count,
+                   const MisfitOptions& options, const Progress& progress) {
+  // Two looks from each place.
   const ShownLight shown = shown_light(gatherer.scene, mesh);
-  const std::vector<std::uint32_t> chosen = spread_by_area(mesh, samples, count);
-  std::vector<double> squared(chosen.size());
-  parallel_in_chunks(chosen.size(), 256, progress, "gather", [&](std::size_t k) {
-    const std::uint32_t s = chosen[k];
-    const auto after = std::upper_bound(samples.first_of_element.begin(), samples.first_of_element.end(), s);
-    const auto e = static_cast<std::uint32_t>(after - samples.first_of_element.begin() - 1);
-    const auto number = samples.taken + static_cast<std::uint32_t>(k);
-    const Gathered again = gather_sample(mesh, gatherer, e, number, samples.weights[s]);
-    const double difference = double{luminance_of(shown.under(e, again.irradiance))} -
-                              double{luminance_of(shown.under(e, samples.irradiance[s]))};
-    squared[k] = 0.5 * difference * difference;
+  const Rgb white = white_of(mesh, samples, shown, options.exposure);
+  const std::vector<Check> checks = places_to_check(mesh, samples, misfit, place_count);
+  std::vector<double> product(checks.size(), 0.0), weight(checks.size(), 0.0);
+  parallel_in_chunks(checks.size(), 256, progress, "check", [&](std::size_t k) {
+    const std::uint32_t e = checks[k].element;
+    const ElementView view = view_of(e, mesh, irradiance, shown, white);
+    const auto number = samples.taken + 2 * static_cast<std::uint32_t>(k);
+    const glm::vec3 weights = corner_weights(number);
+    std::array<double, 2> residual{};
+    for (std::uint32_t look = 0; look < 2; ++look) {
+      const Gathered gathered = gather_sample(mesh, gatherer, e, number + look, weights);
+      if (gathered.back_share > kBuriedShare) return;
+      residual[look] = view.residual(weights, shown.under(e, gathered.irradiance));
+    }
+    product[k] = checks[k].weight * residual[0] * residual[1];
+    weight[k] = checks[k].weight;
   });
-  double sum = 0.0;
-  for (const double one : squared) sum += one;
-  return squared.empty() ? 0.0 : sum / static_cast<double>(squared.size());
+
+  double squared = 0.0, total = 0.0;
+  for (std::size_t k = 0; k < checks.size(); ++k) {
+    squared += product[k];
+    total += weight[k];
+  }
+  return total > 0.0 && misfit.mean > 0.0 ? std::sqrt(std::max(0.0, squared / total)) / misfit.mean : 0.0;
 }
 
 std::vector<std::uint32_t> worst_elements(const Misfit& misfit, std::span<const std::uint8_t> may_be_cut) {

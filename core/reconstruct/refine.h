@@ -1,11 +1,10 @@
 // Which elements the fit cannot represent, and how wrong the whole is.
 //
-// Samples are compared with what the display mesh shows where they lie. A sample that took part in a fit is closer to
-// it than any other place is; how much closer follows from its leverage, the share that it has in the fit at its own
-// place: the residual without it would be 1 / (1 - leverage) times as large. And a sample is not the truth either: its
-// noise, found by looking twice from some of the places, is no error of the fit.
-//
-// Allen. The Relationship Between Variable Selection and Data Augmentation and a Method for Prediction. 1974
+// Elements are ranked by how far the samples in them are from what the display mesh shows there. That is no measure of
+// the error: samples are noisy, those that took part in a fit are closer to it than other places are, and elements that
+// were lucky with their samples are not cut. So the error is checked at places of its own, each of which is looked at
+// from twice: the noise of both looks is independent, and the mean product of both differences from what is shown is
+// the mean square of the error.
 #pragma once
 
 #include <cstddef>
@@ -28,23 +27,24 @@ enum class ErrorSpace : std::uint8_t {
 struct MisfitOptions {
   ErrorSpace space = ErrorSpace::kDisplay;
   float exposure = 0.0F;  ///< k, m2/cd, at which light is cut off at white; 0 chooses as automatic_exposure() does
-  double variance = 0.0;  ///< of samples, see sample_variance(): taken out of the estimate
 };
 
+/// Luminance in cd/m2. What is white at all corners of an element hides its error.
 struct Misfit {
-  std::vector<double> of_element;  ///< area x mean squared residual, in the space asked for, [element_count]
-  double relative_rmse = 0.0;      ///< estimate of the root mean square error of luminance over its mean
+  std::vector<double> squared;     ///< area x mean squared residual of the samples, [element_count]
+  std::vector<double> of_element;  ///< the same in the space asked for
+  double mean = 0.0;               ///< over the surface that has samples
 };
 
-/// The misfit of `irradiance` (at the vertices, lx). What is white at all corners of an element hides its error.
-/// Parallel; deterministic.
+/// The misfit of `irradiance` (at the vertices, lx). Parallel; deterministic.
 Misfit measure_misfit(const Scene& scene, const RefinedMesh& mesh, const Samples& samples,
                       std::span<const Rgb> irradiance, const MisfitOptions& options);
 
-/// Variance of what a sample shows about what its place shows, (cd/m2)^2: the mean over the surface of half the squared
-/// difference, in luminance, to `count` samples that are taken again. Parallel; throws `Cancelled`.
-double sample_variance(const RefinedMesh& mesh, const Samples& samples, const Gatherer& gatherer, std::size_t count,
-                       const Progress& progress);
+/// How wrong the whole is, by `place_count` places, more of them where `misfit` is larger. Parallel; throws
+/// `Cancelled`.
+double check_error(const RefinedMesh& mesh, const Samples& samples, std::span<const Rgb> irradiance,
+                   const Misfit& misfit, const Gatherer& gatherer, std::size_t place_count,
+                   const MisfitOptions& options, const Progress& progress);
 
 /// What to cut next: of those elements that `may_be_cut` [element_count], worst first, as many as have half of all
 /// their misfit, but an eighth of all elements at most and a 64th at least.

@@ -15,16 +15,6 @@ namespace {
 /// In an element much larger than a patch.
 constexpr double kMaxSamplesPerElement = 64.0;
 
-/// Sample `k` of the sequence that runs on from element to element: R2 (Roberts 2018), folded into a triangle, by the
-/// weights of the corners. Kept a little away from the edges, where walls meet.
-glm::vec3 corner_weights(std::uint32_t k) {
-  constexpr std::uint32_t kStepX = 3242174889U, kStepY = 2447445414U;  // in units of 2^-32
-  glm::vec2 at(static_cast<float>((k * kStepX) >> 8U) * 0x1p-24F, static_cast<float>((k * kStepY) >> 8U) * 0x1p-24F);
-  if (at.x + at.y > 1.0F) at = 1.0F - at;
-  at = glm::mix(glm::vec2(1.0F / 3.0F), at, 0.94F);
-  return {1.0F - at.x - at.y, at.x, at.y};
-}
-
 /// The shading normal at a place of an element. Corners without a normal, or whose normal points to the other side,
 /// count as flat.
 glm::vec3 shading_normal(const RefinedMesh& mesh, const glm::uvec3& element, const glm::vec3& weights,
@@ -126,6 +116,16 @@ std::vector<std::uint32_t> missing(const Samples& known, const RefinedMesh& mesh
 }
 
 }  // namespace
+
+// R2 (Roberts 2018), folded into a triangle. Kept a little away from the edges, where walls meet.
+glm::vec3 corner_weights(std::uint32_t number) {
+  constexpr std::uint32_t kStepX = 3242174889U, kStepY = 2447445414U;  // in units of 2^-32
+  glm::vec2 at(static_cast<float>((number * kStepX) >> 8U) * 0x1p-24F,
+               static_cast<float>((number * kStepY) >> 8U) * 0x1p-24F);
+  if (at.x + at.y > 1.0F) at = 1.0F - at;
+  at = glm::mix(glm::vec2(1.0F / 3.0F), at, 0.94F);
+  return {1.0F - at.x - at.y, at.x, at.y};
+}
 
 Gathered gather_sample(const RefinedMesh& mesh, const Gatherer& gatherer, std::uint32_t e, std::uint32_t sample,
                        const glm::vec3& weights) {

@@ -32,6 +32,10 @@ struct Samples {
   std::size_t sample_count() const { return irradiance.size(); }
 };
 
+/// The weights of an element's corners at the place of sample `number`, in a sequence that runs on from element to
+/// element.
+glm::vec3 corner_weights(std::uint32_t number);
+
 /// What is seen from the place of element `e` where its corners have these weights, on the side that shows; buried if
 /// that side is. `number` picks the place in the low-discrepancy sequences.
 Gathered gather_sample(const RefinedMesh& mesh, const Gatherer& gatherer, std::uint32_t e, std::uint32_t number,
