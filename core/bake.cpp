@@ -5,6 +5,7 @@
 
 #include "core/mesh/cut_mesh.h"
 #include "core/mesh/patches.h"
+#include "core/mesh/stitch.h"
 #include "core/mesh/subdivide_adaptive.h"
 #include "core/parallel.h"
 #include "core/reconstruct/fit_vertices.h"
@@ -64,9 +65,11 @@ Display subdivide(const Scene& scene, const BakeOptions& options, const Progress
   } else {
     SubdivideOptions levels = options.subdivide;
     levels.patch_size = 0.0F;
+    const BisectLimits limits = limits_of(scene, options);
     display.cut = std::make_unique<CutMesh>(scene);
+    stitch(*display.cut, limits.max_vertices - std::min(limits.max_vertices, scene.positions.size()));
     display.reached_limit = subdivide_uniform(*display.cut, levels, progress);
-    display.bisector = std::make_unique<Bisector>(*display.cut, limits_of(scene, options));
+    display.bisector = std::make_unique<Bisector>(*display.cut, limits);
     if (options.subdivide.patch_size > 0.0F) display.bisector->bisect_longer_than(double{options.subdivide.patch_size});
   }
   return display;

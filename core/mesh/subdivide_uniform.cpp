@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/mesh/openmesh_bridge.h"
+#include "core/mesh/stitch.h"
 
 namespace radiosity {
 namespace {
@@ -230,6 +231,7 @@ Subdivision subdivide_uniform(const Scene& scene, const SubdivideOptions& option
     return {.mesh = unrefined(scene)};
   }
   CutMesh cut(scene);
+  stitch(cut, options.max_elements - std::min(options.max_elements, scene.triangles.size()));
   Subdivision result;
   result.reached_limit = subdivide_uniform(cut, options, progress);
   result.mesh = std::move(cut.mesh);

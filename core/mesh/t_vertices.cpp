@@ -18,6 +18,7 @@ namespace {
 struct OpenEdge {
   glm::uvec2 classes{0};   // the smaller first
   glm::uvec2 vertices{0};  // as the element names them
+  std::uint32_t apex = 0;  // the class of the element's third corner, which may lie on the edge: a sliver, no crack
 };
 
 std::vector<OpenEdge> open_edges(std::span<const glm::uvec3> triangles, const Weld& welded) {
@@ -27,7 +28,7 @@ std::vector<OpenEdge> open_edges(std::span<const glm::uvec3> triangles, const We
     for (int k = 0; k < 3; ++k) {
       const glm::uvec2 ends(triangle[k], triangle[(k + 1) % 3]);
       const auto [low, high] = std::minmax({welded.class_of_vertex[ends.x], welded.class_of_vertex[ends.y]});
-      if (low != high) edges.push_back({{low, high}, ends});
+      if (low != high) edges.push_back({{low, high}, ends, welded.class_of_vertex[triangle[(k + 2) % 3]]});
     }
   }
   const auto order = [](const OpenEdge& e) { return std::tuple(e.classes.x, e.classes.y, e.vertices.x, e.vertices.y); };
@@ -116,6 +117,7 @@ std::vector<TVertex> find_t_vertices(std::span<const glm::vec3> positions, std::
     const glm::dvec3 along = (b - a) / length;
     const auto first = static_cast<std::ptrdiff_t>(found.size());
     cells.along(a, b, [&](std::uint32_t vertex) {
+      if (welded.class_of_vertex[vertex] == edge.apex) return;
       const glm::dvec3 offset = glm::dvec3(positions[vertex]) - a;
       const double at = glm::dot(offset, along);
       const bool inside = at > double{tolerance} && at < length - double{tolerance};

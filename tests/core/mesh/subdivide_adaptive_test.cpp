@@ -38,8 +38,8 @@ Scene fan(std::uint32_t count) {
   return scene;
 }
 
-/// Sound and faulty.
-std::map<std::string, Scene> scenes() {
+/// Scenes of all kinds.
+std::map<std::string, Scene> sound_and_faulty() {
   return {{"closed", test::box_room({1, 2, 3}, Surface{})},
           {"cornell box", test::cornell_box()},
           {"seam", scene_of({kCorners[0], kCorners[1], kCorners[2], kCorners[0], kCorners[2], kCorners[3]},
@@ -72,7 +72,7 @@ void cut_towards_a_corner(CutMesh& cut, Bisector& bisector, int rounds) {
 }
 
 TEST(SubdivideAdaptive, ConformsWhateverTheScene) {
-  for (const auto& [name, scene] : scenes()) {
+  for (const auto& [name, scene] : sound_and_faulty()) {
     SCOPED_TRACE(name);
     CutMesh cut(scene);
     Bisector bisector(cut, {});

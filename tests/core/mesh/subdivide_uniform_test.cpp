@@ -264,11 +264,11 @@ TEST(SubdivideUniform, EndsAtEdgesTooShortToHaveAMiddle) {
 }
 
 TEST(SubdivideUniform, HalvesOfALongEdgeJoinTheShortEdgesAlongIt) {
-  // The scene has a T-vertex at (1,0,0): the halves of the long edge fall on the two short ones.
+  // The scene has a T-vertex at (1,0,0): the long edge is cut there first, then both halves in four twice.
   const Scene scene =
       scene_of({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {1, 0, 0}, {1, -1, 0}}, {{0, 1, 2}, {0, 4, 3}, {3, 4, 1}});
   const RefinedMesh mesh = cut_to_levels(scene, {2, 0, 0}).mesh;
-  EXPECT_THAT(elements_per_triangle(scene, mesh), ElementsAre(16, 2, 2));
+  EXPECT_THAT(elements_per_triangle(scene, mesh), ElementsAre(32, 4, 4));
   EXPECT_EQ(t_vertex_count(mesh), 0U);
 }
 

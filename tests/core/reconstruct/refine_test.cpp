@@ -17,7 +17,7 @@
 namespace radiosity {
 namespace {
 
-using Field = std::function<float(const glm::vec3&)>;
+using Luminance = std::function<float(const glm::vec3&)>;
 
 /// A unit square of reflectance 1, as a scene of that many quads and its display mesh: the same.
 struct Square {
@@ -34,7 +34,7 @@ struct Square {
   }
 
   /// Irradiance that shows `field`, at `per_element` places of each element.
-  Samples samples(const Field& field, int per_element) const {
+  Samples samples(const Luminance& field, int per_element) const {
     Samples samples;
     samples.first_of_element = {0};
     samples.buried.assign(mesh.elements.size(), 0);
