@@ -20,7 +20,7 @@ struct ElementMatrix {
   double xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0, xz = 0.0, yz = 0.0;
 };
 
-/// Samples in an element without which smoothness has a say: it fades as there are more.
+/// With more samples in an element than this, smoothness may fade.
 constexpr double kOrdinaryCount = 3.0;
 
 /// The normal equations A x = b of all groups, three bands at once.
@@ -56,7 +56,8 @@ void add_smoothness(double weight, ElementMatrix& m) {
   m.yz -= weight;
 }
 
-System make_system(const RefinedMesh& mesh, const Samples& samples, const SmoothGroups& groups, double damping) {
+System make_system(const RefinedMesh& mesh, const Samples& samples, const SmoothGroups& groups,
+                   const FitOptions& options) {
   System system{{},
                 std::vector<double>(groups.group_count, 0.0),
                 std::vector<glm::dvec3>(groups.group_count, glm::dvec3(0.0)),
@@ -68,8 +69,8 @@ System make_system(const RefinedMesh& mesh, const Samples& samples, const Smooth
     for (std::size_t k = 0; k < 3; ++k) m.group[k] = groups.group_of_vertex[mesh.elements[e][static_cast<int>(k)]];
     const std::uint32_t count = samples.first_of_element[e + 1] - samples.first_of_element[e];
     if (count > 0) add_samples(samples, e, area / count, m, system);
-    const double scarcity = std::min(1.0, kOrdinaryCount / count);
-    add_smoothness(damping * scarcity * scarcity * area, m);
+    const double scarcity = options.fades ? std::min(1.0, kOrdinaryCount / count) : 1.0;
+    add_smoothness(options.damping * scarcity * scarcity * area, m);
     system.diagonal[m.group[0]] += m.xx;
     system.diagonal[m.group[1]] += m.yy;
     system.diagonal[m.group[2]] += m.zz;
@@ -185,7 +186,7 @@ std::size_t hold_dark(const std::vector<glm::dvec3>& x, System& system) {
 std::vector<Rgb> fit_vertices(const RefinedMesh& mesh, const Samples& samples, const FitOptions& options,
                               std::span<const Rgb> guess) {
   const SmoothGroups groups = find_smooth_groups(mesh);
-  System system = make_system(mesh, samples, groups, options.damping);
+  System system = make_system(mesh, samples, groups, options);
   std::vector<glm::dvec3> value = guess.empty() ? first_guess(mesh, samples, groups) : by_group(groups, guess);
   solve(system, options.max_iterations, value);
 

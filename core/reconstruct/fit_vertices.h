@@ -17,7 +17,8 @@
 namespace radiosity {
 
 struct FitOptions {
-  double damping = 0.01;     ///< weight of smoothness against three samples in an element, > 0
+  double damping = 0.02;     ///< weight of smoothness against samples, > 0
+  bool fades = false;        ///< smoothness loses its say where an element has more than three samples
   int max_iterations = 200;  ///< of the conjugate gradients
 };
 

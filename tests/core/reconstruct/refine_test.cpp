@@ -56,7 +56,7 @@ struct Square {
   }
 
   Misfit misfit(const Samples& samples, const MisfitOptions& options = {}) const {
-    return measure_misfit(scene, mesh, samples, fit_vertices(mesh, samples, {}), options);
+    return measure_misfit(scene, mesh, samples, fit_vertices(mesh, samples, {.fades = true}), options);
   }
 };
 
