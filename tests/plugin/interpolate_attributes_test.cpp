@@ -37,6 +37,27 @@ std::vector<float> midpoint(RawAccessor raw, Interpolation how) {
   return third_row(raw);
 }
 
+TEST(InterpolateAttributes, GoesByTheDistanceFromBothEnds) {
+  const std::vector<Cut> near_second = {{{0, 1}, 0.75F}};
+  RawAccessor linear = raw_of({0, 8, 4, 0}, 2);
+  append_cuts(linear, Interpolation::kLinear, near_second);
+  EXPECT_THAT(third_row(linear), ElementsAre(3, 2));
+
+  RawAccessor ids = raw_of({7, 9}, 1, ComponentType::kU16);
+  append_cuts(ids, Interpolation::kLabel, near_second);
+  EXPECT_THAT(third_row(ids), ElementsAre(9)) << "of the nearer end";
+
+  RawAccessor tangent = raw_of({1, 0, 0, -1, 0, 1, 0, 1}, 4);
+  append_cuts(tangent, Interpolation::kTangent, near_second);
+  EXPECT_THAT(third_row(tangent), ElementsAre(FloatNear(0.3162278F, 1e-6F), FloatNear(0.9486833F, 1e-6F), 0, 1));
+
+  std::vector<SkinSet> skin = {
+      {raw_of({5, 0, 0, 0, 6, 0, 0, 0}, 4, ComponentType::kU8), raw_of({1, 0, 0, 0, 1, 0, 0, 0}, 4)}};
+  append_cuts(skin, near_second);
+  EXPECT_THAT(third_row(skin[0].joints), ElementsAre(6, 5, 0, 0));
+  EXPECT_THAT(third_row(skin[0].weights), ElementsAre(0.75F, 0.25F, 0, 0));
+}
+
 TEST(InterpolateAttributes, AMidpointIsTheMeanOfItsEnds) {
   EXPECT_THAT(midpoint(raw_of({0, 1, 4, 3}, 2), Interpolation::kLinear), ElementsAre(2, 2));
 }
