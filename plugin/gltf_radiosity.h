@@ -41,7 +41,7 @@ struct Sun {
 /// Every option of a bake. The defaults are what the command line's --help prints.
 struct Options {
   // Mesh
-  Refine refine = Refine::kUniform;
+  Refine refine = Refine::kAdaptive;
   double patch_size = 0.0;         ///< longest edge of the baked mesh, metres; 0 chooses one that suits the scene
   double max_error = 0.02;         ///< adaptive: cut until the estimated relative RMSE is not above this, > 0
   std::uint64_t max_vertices = 0;  ///< adaptive: or until there are this many; 0: those of the file and 16 000 more
