@@ -23,6 +23,7 @@ Error refuse(const char* option, const char* why) { return {ErrorCode::kBadOptio
 Result<Done> check_options(const Options& options) {
   // Mesh.
   if (!is_finite_and_at_least(options.patch_size, 0.0)) return refuse("--patch-size", "must not be negative");
+  if (!(std::isfinite(options.max_error) && options.max_error > 0.0)) return refuse("--max-error", "must be above 0");
   for (const auto& [name, level] : options.subdivide) {
     if (level < 0 || level > 8) return refuse("--subdivide", "the level must be between 0 and 8");
   }

@@ -34,9 +34,9 @@ std::vector<glm::vec4> old_colors(const Source& source) {
     const float* color = source.scene.vertex_colors.data() + std::size_t{source.refined.vertices[v]} * 4;
     colors[v] = {color[0], color[1], color[2], color[3]};
   }
-  for (std::size_t k = 0; k < source.refined.midpoints.size(); ++k) {
-    const glm::uvec2& ends = source.refined.midpoints[k];
-    colors[own_count + k] = (colors[ends.x] + colors[ends.y]) * 0.5F;
+  for (std::size_t k = 0; k < source.refined.cuts.size(); ++k) {
+    const radiosity::Cut& cut = source.refined.cuts[k];
+    colors[own_count + k] = glm::mix(colors[cut.ends.x], colors[cut.ends.y], cut.at);
   }
   return colors;
 }

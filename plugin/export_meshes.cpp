@@ -28,7 +28,7 @@ class AttributeExporter {
     const Interpolation how = morph_target ? Interpolation::kLinear : interpolation_of(semantic, raw);
     const auto [known, is_new] = exported_.try_emplace({accessor, how}, 0);
     if (is_new) {
-      append_midpoints(raw, how, refined_.midpoints);
+      append_cuts(raw, how, refined_.cuts);
       known->second = append(raw, accessor, semantic == "POSITION");
     }
     return known->second;
@@ -41,7 +41,7 @@ class AttributeExporter {
       sets.push_back({source_rows(attributes[joints(n)].get<std::size_t>()),
                       source_rows(attributes[weights(n)].get<std::size_t>())});
     }
-    append_midpoints(sets, refined_.midpoints);
+    append_cuts(sets, refined_.cuts);
     for (std::size_t n = 0; n < sets.size(); ++n) {
       attributes[joints(n)] = append(sets[n].joints, attributes[joints(n)].get<std::size_t>(), false);
       attributes[weights(n)] = append(sets[n].weights, attributes[weights(n)].get<std::size_t>(), false);
@@ -104,7 +104,7 @@ RawAccessor index_accessor(const RefinedPrimitive& refined) {
 /// Deals the vertices to the instances; returns the output vertex of each vertex.
 std::vector<std::uint32_t> split_vertices(const radiosity::RefinedMesh& mesh, const ImportedScene& scene,
                                           std::vector<RefinedPrimitive>& refined) {
-  const std::size_t vertex_count = mesh.scene_vertex_count + mesh.midpoints.size();
+  const std::size_t vertex_count = mesh.scene_vertex_count + mesh.cuts.size();
   std::vector<std::uint32_t> instance_of(vertex_count), output_of(vertex_count);
 
   // The scene's own.
@@ -118,16 +118,16 @@ std::vector<std::uint32_t> split_vertices(const radiosity::RefinedMesh& mesh, co
     }
   }
 
-  // Midpoints go where their ends are.
-  for (std::uint32_t k = 0; k < mesh.midpoints.size(); ++k) {
+  // Cuts go where their ends are.
+  for (std::uint32_t k = 0; k < mesh.cuts.size(); ++k) {
     const std::uint32_t vertex = mesh.scene_vertex_count + k;
-    const glm::uvec2 ends = mesh.midpoints[k];
+    const glm::uvec2 ends = mesh.cuts[k].ends;
     assert(ends.x < vertex && ends.y < vertex && instance_of[ends.x] == instance_of[ends.y]);
     instance_of[vertex] = instance_of[ends.x];
     RefinedPrimitive& primitive = refined[instance_of[vertex]];
     output_of[vertex] = static_cast<std::uint32_t>(primitive.vertices.size());
     primitive.vertices.push_back(vertex);
-    primitive.midpoints.emplace_back(output_of[ends.x], output_of[ends.y]);
+    primitive.cuts.push_back({{output_of[ends.x], output_of[ends.y]}, mesh.cuts[k].at});
   }
   return output_of;
 }
@@ -149,7 +149,7 @@ std::vector<RefinedPrimitive> split_by_instance(const radiosity::RefinedMesh& me
       refined[i].triangles.push_back(instance.mirrored ? glm::uvec3(triangle.x, triangle.z, triangle.y) : triangle);
       refined[i].elements.push_back(element);
     }
-    refined[i].changed = !refined[i].midpoints.empty() || refined[i].triangles.size() != instance.triangle_count ||
+    refined[i].changed = !refined[i].cuts.empty() || refined[i].triangles.size() != instance.triangle_count ||
                          !instance.source_vertex.empty();
   }
   return refined;

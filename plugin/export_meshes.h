@@ -16,12 +16,12 @@ namespace gltf_radiosity {
 struct RefinedPrimitive {
   bool changed = false;  ///< false: vertices and indices are the source's, only COLOR_0 is new
   std::vector<std::uint32_t>
-      vertices;  ///< RefinedMesh vertex of each output vertex; the scene's own come first, in order
-  std::vector<glm::uvec2> midpoints;    ///< the ends of each of the others, output vertices before it
+      vertices;                      ///< RefinedMesh vertex of each output vertex; the scene's own come first, in order
+  std::vector<radiosity::Cut> cuts;  ///< where each of the others is, between output vertices before it
   std::vector<glm::uvec3> triangles;    ///< output vertices, wound as glTF wants them in the node's space
   std::vector<std::uint32_t> elements;  ///< RefinedMesh element of each triangle
 
-  std::size_t source_vertex_count() const { return vertices.size() - midpoints.size(); }
+  std::size_t source_vertex_count() const { return vertices.size() - cuts.size(); }
 };
 
 /// Splits the refined mesh by instance. [instances.size()].
@@ -29,7 +29,7 @@ std::vector<RefinedPrimitive> split_by_instance(const radiosity::RefinedMesh& me
 
 /// Rewrites `primitive` (a copy of the source primitive's JSON) for a changed instance: new indices and, for every
 /// attribute but COLOR_0 (export_colors.h) and every morph target, a new accessor with the source vertices' exact bytes
-/// first and the midpoints' interpolated values after (interpolate_attributes.h). Appends accessors and bufferViews to
+/// first and the cuts' interpolated values after (interpolate_attributes.h). Appends accessors and bufferViews to
 /// `document.json`; mode becomes TRIANGLES. `primitive` must not lie in `document`.
 void export_geometry(Document& document, BufferBuilder& buffer, const PrimitiveInstance& instance,
                      const RefinedPrimitive& refined, Json& primitive);

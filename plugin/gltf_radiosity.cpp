@@ -19,6 +19,18 @@
 namespace gltf_radiosity {
 namespace {
 
+radiosity::Refine refine_of(Refine refine) {
+  switch (refine) {
+    case Refine::kNone:
+      return radiosity::Refine::kNone;
+    case Refine::kUniform:
+      return radiosity::Refine::kUniform;
+    case Refine::kAdaptive:
+      break;
+  }
+  return radiosity::Refine::kAdaptive;
+}
+
 radiosity::Visibility visibility_of(VisibilityMethod method) {
   switch (method) {
     case VisibilityMethod::kRaster:
@@ -47,7 +59,13 @@ radiosity::BakeOptions bake_options(const Options& options, const ImportedScene&
   result.subdivide.level_of_triangle = scene.level_of_triangle;
   // A node's own level counts even where all others keep their triangles: the patch size is 0 then.
   const bool has_levels = std::ranges::any_of(scene.level_of_triangle, [](std::int8_t level) { return level > 0; });
-  result.refine_uniform = options.refine == Refine::kUniform || has_levels;
+  result.refine =
+      options.refine == Refine::kNone && has_levels ? radiosity::Refine::kUniform : refine_of(options.refine);
+  result.adapt.max_error = options.max_error;
+  result.adapt.max_vertices = options.max_vertices;
+  result.adapt.space =
+      options.error_space == ErrorSpace::kLinear ? radiosity::ErrorSpace::kLinear : radiosity::ErrorSpace::kDisplay;
+  result.adapt.exposure = static_cast<float>(options.exposure.value_or(0.0));
   result.hemicube_resolution = options.hemicube;
   result.visibility = visibility_of(options.visibility);
   result.solver =
@@ -65,8 +83,9 @@ radiosity::BakeOptions bake_options(const Options& options, const ImportedScene&
 /// The longest edge that the display mesh may have, metres; 0 if it is the scene's own.
 double patch_size_of(const Options& options, const ImportedScene& scene) {
   if (options.refine == Refine::kNone) return 0.0;
-  return options.patch_size > 0.0 ? options.patch_size
-                                  : static_cast<double>(radiosity::default_patch_size(scene.scene));
+  if (options.patch_size > 0.0) return options.patch_size;
+  return static_cast<double>(options.refine == Refine::kUniform ? radiosity::default_patch_size(scene.scene)
+                                                                : radiosity::coarse_patch_size(scene.scene));
 }
 
 /// Import, bake and export: patches `document`, new data goes into `added`.

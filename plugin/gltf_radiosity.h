@@ -22,7 +22,8 @@ namespace gltf_radiosity {
 /// The library's version, "major.minor.patch".
 std::string_view version();
 
-enum class Refine { kNone, kUniform };
+enum class Refine { kNone, kUniform, kAdaptive };
+enum class ErrorSpace { kDisplay, kLinear };
 enum class VisibilityMethod { kAuto, kRaster, kRays };
 enum class SolverMethod { kProgressive, kGathering };
 enum class FitMethod { kLeastSquares, kInterpolate };
@@ -40,8 +41,11 @@ struct Sun {
 /// Every option of a bake. The defaults are what the command line's --help prints.
 struct Options {
   // Mesh
-  Refine refine = Refine::kUniform;
-  double patch_size = 0.0;  ///< longest edge of the baked mesh, metres; 0 chooses one that suits the scene
+  Refine refine = Refine::kAdaptive;
+  double patch_size = 0.0;         ///< longest edge of the baked mesh, metres; 0 chooses one that suits the scene
+  double max_error = 0.02;         ///< adaptive: cut until the estimated relative RMSE is not above this, > 0
+  std::uint64_t max_vertices = 0;  ///< adaptive: or until there are this many; 0: those of the file and 16 000 more
+  ErrorSpace error_space = ErrorSpace::kDisplay;       ///< adaptive: in which errors are compared to cut the worst
   std::vector<std::pair<std::string, int>> subdivide;  ///< node name -> times each triangle is cut in four, [0, 8]
   // Light
   std::optional<std::array<double, 3>> sky;  ///< luminance of the open sky, cd/m2, linear Rec. 709
@@ -69,8 +73,8 @@ struct Options {
 
 /// Called from one thread at a time.
 struct Callbacks {
-  /// `phase` is one of "read", "import", "subdivide", "patches", "direct", "sky", "solve", "gather", "fit", "export",
-  /// "write"; `done` in [0,1].
+  /// `phase` is one of "read", "import", "subdivide", "patches", "direct", "sky", "solve", "gather", "fit", "refine",
+  /// "export", "write"; `done` in [0,1].
   std::function<void(std::string_view phase, double done)> progress;
   /// Answer true to stop: the bake ends with ErrorCode::kCancelled within a second and writes nothing.
   std::function<bool()> cancelled;
@@ -102,6 +106,9 @@ struct Report {
   std::uint64_t buried_elements = 0;
   double patch_size = 0.0;  ///< metres, the one used; 0 with Refine::kNone
   double residual = 0.0;
+  double estimated_error = 0.0;  ///< of the baked light: root mean square over mean luminance
+  std::uint64_t refine_rounds = 0;
+  std::string refine_end;          ///< why refinement ended: "error", "limit", "floor"; empty where it was not adaptive
   double emitted_flux = 0.0;       ///< lm
   double absorbed_flux = 0.0;      ///< lm
   double escaped_flux = 0.0;       ///< lm

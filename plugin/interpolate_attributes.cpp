@@ -8,6 +8,11 @@
 namespace gltf_radiosity {
 namespace {
 
+using radiosity::Cut;
+
+/// The first of two that are equally near.
+std::uint32_t nearer_end(const Cut& cut) { return cut.at > 0.5F ? cut.ends.y : cut.ends.x; }
+
 std::size_t row_size(const RawAccessor& raw) {
   return static_cast<std::size_t>(raw.components) * component_size(raw.component);
 }
@@ -17,9 +22,9 @@ void append_bytes(RawAccessor& raw, const Bytes& bytes, std::size_t row_count) {
   raw.count += row_count;
 }
 
-/// The mean; if that is no number because an end is none, the other end.
-float mean_of(float first, float second) {
-  const float mean = (first + second) * 0.5F;
+/// The value between the ends; if that is no number because an end is none, the other end.
+float value_at(float at, float first, float second) {
+  const float mean = first * (1.0F - at) + second * at;
   if (std::isfinite(mean)) return mean;
   return std::isfinite(first) ? first : second;
 }
@@ -68,9 +73,9 @@ class Influences {
 };
 
 /// The influences on all vertices, [count * 4 * sets], read from the sets' accessors.
-std::vector<Influence> read_influences(const std::vector<SkinSet>& sets, std::size_t midpoint_count) {
+std::vector<Influence> read_influences(const std::vector<SkinSet>& sets, std::size_t cut_count) {
   const std::size_t width = 4 * sets.size(), count = sets.front().joints.count;
-  std::vector<Influence> influences((count + midpoint_count) * width);
+  std::vector<Influence> influences((count + cut_count) * width);
   for (std::size_t s = 0; s < sets.size(); ++s) {
     const std::vector<std::uint32_t> joints = as_indices(sets[s].joints);
     const std::vector<float> weights = as_floats(sets[s].weights);
@@ -129,52 +134,53 @@ RawAccessor picked(RawAccessor source, std::span<const std::uint32_t> rows) {
   return source;
 }
 
-void append_midpoints(RawAccessor& raw, Interpolation how, std::span<const glm::uvec2> ends) {
+void append_cuts(RawAccessor& raw, Interpolation how, std::span<const Cut> cuts) {
   const auto width = static_cast<std::size_t>(raw.components);
   const std::size_t old_count = raw.count;
 
   // Labels are copied as bytes.
   if (how == Interpolation::kLabel) {
     const std::size_t size = row_size(raw);
-    raw.bytes.resize((old_count + ends.size()) * size);
-    for (std::size_t k = 0; k < ends.size(); ++k) {
-      std::memcpy(raw.bytes.data() + (old_count + k) * size, raw.bytes.data() + ends[k].x * size, size);
+    raw.bytes.resize((old_count + cuts.size()) * size);
+    for (std::size_t k = 0; k < cuts.size(); ++k) {
+      std::memcpy(raw.bytes.data() + (old_count + k) * size, raw.bytes.data() + nearer_end(cuts[k]) * size, size);
     }
-    raw.count += ends.size();
+    raw.count += cuts.size();
     return;
   }
 
-  // Means are taken of floats, unrounded from midpoint to midpoint.
+  // Means are taken of floats, unrounded from cut to cut.
   std::vector<float> values = as_floats(raw);
-  values.resize((old_count + ends.size()) * width);
-  for (std::size_t k = 0; k < ends.size(); ++k) {
-    const float* first = values.data() + ends[k].x * width;
-    const float* second = values.data() + ends[k].y * width;
+  values.resize((old_count + cuts.size()) * width);
+  for (std::size_t k = 0; k < cuts.size(); ++k) {
+    const float* first = values.data() + cuts[k].ends.x * width;
+    const float* second = values.data() + cuts[k].ends.y * width;
+    const float* nearer = values.data() + nearer_end(cuts[k]) * width;
     float* mean = values.data() + (old_count + k) * width;
-    for (std::size_t c = 0; c < width; ++c) mean[c] = mean_of(first[c], second[c]);
-    if (how == Interpolation::kDirection || how == Interpolation::kTangent) normalise(mean, first);
-    if (how == Interpolation::kTangent) mean[3] = first[3];
+    for (std::size_t c = 0; c < width; ++c) mean[c] = value_at(cuts[k].at, first[c], second[c]);
+    if (how == Interpolation::kDirection || how == Interpolation::kTangent) normalise(mean, nearer);
+    if (how == Interpolation::kTangent) mean[3] = nearer[3];
   }
   const std::vector<float> fresh(values.begin() + static_cast<std::ptrdiff_t>(old_count * width), values.end());
-  append_bytes(raw, encode_floats(fresh, raw.component, raw.normalized), ends.size());
+  append_bytes(raw, encode_floats(fresh, raw.component, raw.normalized), cuts.size());
 }
 
-void append_midpoints(std::vector<SkinSet>& sets, std::span<const glm::uvec2> ends) {
+void append_cuts(std::vector<SkinSet>& sets, std::span<const Cut> cuts) {
   if (sets.empty()) return;
   const std::size_t width = 4 * sets.size(), old_count = sets.front().joints.count;
 
-  // Merge the two ends of each midpoint.
-  std::vector<Influence> influences = read_influences(sets, ends.size());
+  // Merge the two ends of each cut.
+  std::vector<Influence> influences = read_influences(sets, cuts.size());
   const auto row = [&](std::size_t vertex) { return std::span(influences).subspan(vertex * width, width); };
-  for (std::size_t k = 0; k < ends.size(); ++k) {
+  for (std::size_t k = 0; k < cuts.size(); ++k) {
     Influences merged;
-    merged.add(row(ends[k].x), 0.5F);
-    merged.add(row(ends[k].y), 0.5F);
+    merged.add(row(cuts[k].ends.x), 1.0F - cuts[k].at);
+    merged.add(row(cuts[k].ends.y), cuts[k].at);
     merged.write_strongest(row(old_count + k));
   }
 
   // Store.
-  for (std::size_t k = 0; k < ends.size(); ++k) round_weights(sets, row(old_count + k));
+  for (std::size_t k = 0; k < cuts.size(); ++k) round_weights(sets, row(old_count + k));
   const std::span<const Influence> fresh = std::span(influences).subspan(old_count * width);
   for (std::size_t s = 0; s < sets.size(); ++s) append_set(sets[s], s, fresh, width);
 }

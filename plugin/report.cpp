@@ -7,6 +7,23 @@
 #include "plugin/report_lists.h"
 
 namespace gltf_radiosity {
+namespace {
+
+const char* name_of(radiosity::RefineEnd end) {
+  switch (end) {
+    case radiosity::RefineEnd::kError:
+      return "error";
+    case radiosity::RefineEnd::kLimit:
+      return "limit";
+    case radiosity::RefineEnd::kFloor:
+      return "floor";
+    case radiosity::RefineEnd::kNotAdaptive:
+      break;
+  }
+  return "";
+}
+
+}  // namespace
 
 void add_figures(const ImportedScene& scene, Report& report) {
   report.input_triangles = scene.scene.triangles.size();
@@ -20,6 +37,9 @@ void add_figures(const radiosity::BakeReport& bake, Report& report) {
   report.steps = bake.steps;
   report.buried_elements = bake.buried_element_count;
   report.residual = static_cast<double>(bake.residual);
+  report.estimated_error = bake.estimated_error;
+  report.refine_rounds = bake.refine_rounds;
+  report.refine_end = name_of(bake.refine_end);
   report.emitted_flux = bake.emitted_flux;
   report.absorbed_flux = bake.absorbed_flux;
   report.escaped_flux = bake.escaped_flux;
@@ -89,6 +109,9 @@ std::string to_json(const Report& report) {
                {"buriedElements", report.buried_elements},
                {"patchSize", report.patch_size},
                {"residual", report.residual},
+               {"estimatedError", report.estimated_error},
+               {"refineRounds", report.refine_rounds},
+               {"refineEnd", report.refine_end},
                {"emittedFlux", report.emitted_flux},
                {"absorbedFlux", report.absorbed_flux},
                {"escapedFlux", report.escaped_flux},

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/mesh/t_vertices.h"
 #include "core/parallel.h"
 #include "core/verify/compare.h"
 #include "core/verify/path_tracer.h"
@@ -98,6 +99,10 @@ void count_output(const ImportedScene& output, VerifyReport& report) {
     const auto& source = instance.source_vertex;
     report.output_vertices += source.empty() ? instance.vertex_count : *std::ranges::max_element(source) + 1U;
   }
+  const radiosity::Scene& scene = output.scene;
+  report.t_vertices =
+      radiosity::find_t_vertices(scene.positions, scene.triangles, radiosity::rounding_tolerance(scene.positions))
+          .size();
 }
 
 void add_warnings(VerifyReport& report) {

@@ -52,7 +52,9 @@ struct VerifyReport {
   double clipped_share = 0.0;    ///< of the points
   std::uint64_t paths = 0;
   std::uint64_t output_triangles = 0, output_vertices = 0;  ///< of the baked file, as often as nodes use them
-  std::vector<PhaseReport> phases;                          ///< "read", "import", "trace", "image"
+  std::uint64_t t_vertices =
+      0;  ///< cracks of the baked file: vertices inside a neighbour's edge (core/mesh/t_vertices.h)
+  std::vector<PhaseReport> phases;  ///< "read", "import", "trace", "image"
   std::vector<Warning> warnings;
 };
 

@@ -21,7 +21,8 @@ std::string to_json(const VerifyReport& report) {
                {"clippedShare", report.clipped_share},
                {"paths", report.paths},
                {"outputTriangles", report.output_triangles},
-               {"outputVertices", report.output_vertices}};
+               {"outputVertices", report.output_vertices},
+               {"tVertices", report.t_vertices}};
   add_lists(report.phases, report.warnings, json);
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }

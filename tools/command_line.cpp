@@ -18,7 +18,9 @@ namespace {
 
 // ---- values that have names ----
 
-constexpr Choices<Refine, 2> kRefine{{{"none", Refine::kNone}, {"uniform", Refine::kUniform}}};
+constexpr Choices<Refine, 3> kRefine{
+    {{"none", Refine::kNone}, {"uniform", Refine::kUniform}, {"adaptive", Refine::kAdaptive}}};
+constexpr Choices<ErrorSpace, 2> kErrorSpace{{{"display", ErrorSpace::kDisplay}, {"linear", ErrorSpace::kLinear}}};
 constexpr Choices<VisibilityMethod, 3> kVisibility{
     {{"raster", VisibilityMethod::kRaster}, {"rays", VisibilityMethod::kRays}, {"auto", VisibilityMethod::kAuto}}};
 constexpr Choices<FitMethod, 2> kFit{
@@ -43,11 +45,30 @@ void add_files(CLI::App& app, CommandLine& line) {
 
 void add_mesh_options(CLI::App& app, Options& options) {
   app.option_defaults()->group("Mesh: how finely the light is stored");
-  add_choice(app, "--refine", "none keeps the triangles of the file; uniform cuts them to --patch-size", options.refine,
-             kRefine);
+  add_choice(
+      app, "--refine",
+      "none keeps the triangles of the file; uniform cuts them to --patch-size; adaptive cuts them where the light "
+      "needs it, until --max-error or --max-vertices is reached",
+      options.refine, kRefine);
+  add(app,
+      {"--max-error", "SHARE", fmt::format("{}", options.max_error),
+       "adaptive: the mesh is fine enough when the estimated error is not above this, as relative RMSE, above 0"},
+      [&options](const std::string& text) { options.max_error = parse_number(text, {.open = true}); });
+  add(app,
+      {"--max-vertices", "COUNT|auto", "auto",
+       "adaptive: the mesh has at most this many vertices, or those of the file if they are more; auto is those of the "
+       "file and 16000 more"},
+      [&options](const std::string& text) {
+        options.max_vertices = text == "auto" ? 0 : static_cast<std::uint64_t>(parse_integer(text, 1, 1'000'000'000));
+      });
+  add_choice(app, "--error-space",
+             "adaptive: which triangles are cut first, those with most error as the eye sees it (display), or in plain "
+             "luminance (linear)",
+             options.error_space, kErrorSpace);
   add(app,
       {"--patch-size", "METRES|auto", "auto",
-       "Longest edge of the baked mesh, in metres; auto (or 0) chooses one that suits the scene"},
+       "Longest edge of the baked mesh, in metres, that adaptive starts from; auto (or 0) chooses one that suits the "
+       "scene"},
       [&options](const std::string& text) { options.patch_size = text == "auto" ? 0.0 : parse_number(text, {}); });
   app.add_option_function<std::vector<std::string>>(
          "--subdivide",

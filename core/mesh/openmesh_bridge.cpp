@@ -3,6 +3,7 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/System/omstream.hh>
 #include <algorithm>
+#include <glm/common.hpp>
 #include <tuple>
 #include <vector>
 
@@ -57,7 +58,6 @@ struct OpenMeshBridge::Net {
   OpenMesh::VPropHandleT<std::uint32_t> position_class;
   std::vector<std::uint32_t> vertices_in_class;
   std::vector<std::uint32_t> joined_at_vertex;  ///< triangles entered so far
-  std::size_t triangle_count = 0;
 
   /// Since the round began: edges that run inside a triangle from an old vertex to a midpoint, one per cut triangle.
   std::vector<EdgeHandle> cuts;
@@ -161,7 +161,6 @@ OpenMeshBridge::OpenMeshBridge(std::span<const glm::uvec3> triangles, std::span<
     : net_(std::make_unique<Net>()) {
   silence_openmesh();
   Net& net = *net_;
-  net.triangle_count = triangles.size();
   net.mesh.add_property(net.corner);
   net.mesh.add_property(net.triangle);
   net.mesh.add_property(net.position_class);
@@ -209,6 +208,22 @@ std::uint32_t OpenMeshBridge::triangle_at(std::uint32_t edge, unsigned int side)
   return face.is_valid() ? net.mesh.property(net.triangle, face) : kNothing;
 }
 
+std::uint32_t OpenMeshBridge::element_at(std::uint32_t edge, unsigned int side) const {
+  const FaceHandle face = net_->mesh.face_handle(net_->mesh.halfedge_handle(edge_of(edge), side));
+  return face.is_valid() ? number_of(face) : kNothing;
+}
+
+std::array<std::uint32_t, 3> OpenMeshBridge::edges_of(std::uint32_t element) const {
+  const Mesh& mesh = net_->mesh;
+  const HalfedgeHandle first = mesh.halfedge_handle(FaceHandle(static_cast<int>(element)));
+  return {number_of(mesh.edge_handle(first)), number_of(mesh.edge_handle(mesh.next_halfedge_handle(first))),
+          number_of(mesh.edge_handle(mesh.prev_halfedge_handle(first)))};
+}
+
+std::uint32_t OpenMeshBridge::triangle_of(std::uint32_t element) const {
+  return net_->mesh.property(net_->triangle, FaceHandle(static_cast<int>(element)));
+}
+
 glm::uvec2 OpenMeshBridge::vertices_at(std::uint32_t edge, unsigned int side) const {
   const Net& net = *net_;
   const HalfedgeHandle halfedge = net.mesh.halfedge_handle(edge_of(edge), side);
@@ -228,8 +243,9 @@ void OpenMeshBridge::begin_round(std::size_t edges, std::size_t sides) {
 //   before     after      ->     before  |   after        A halfedge's corner is the one at its end.
 //     /          \                  /    | \                                                                       .
 //  start --------> end          start --mid---> end
-void OpenMeshBridge::halve(std::uint32_t edge, std::uint32_t position_class, const glm::vec3& position,
-                           const std::array<std::uint32_t, 2>& midpoint_of_side) {
+std::array<std::uint32_t, 2> OpenMeshBridge::cut(std::uint32_t edge, float at, std::uint32_t position_class,
+                                                 const glm::vec3& position,
+                                                 const std::array<std::uint32_t, 2>& vertex_of_side) {
   Net& net = *net_;
   struct Half {
     HalfedgeHandle after, before;
@@ -249,17 +265,23 @@ void OpenMeshBridge::halve(std::uint32_t edge, std::uint32_t position_class, con
     half.before = net.mesh.prev_halfedge_handle(halfedge);
     half.start = net.mesh.property(net.corner, half.before);
     half.end = net.mesh.property(net.corner, halfedge);
-    half.middle = {midpoint_of_side[which], 0.5F * (half.start.at + half.end.at)};
+    const bool forwards =
+        net.mesh.property(net.position_class, net.mesh.to_vertex_handle(halfedge)) == end_classes(edge).y;
+    half.middle = {vertex_of_side[which], glm::mix(half.start.at, half.end.at, forwards ? at : 1.0F - at)};
     half.triangle = net.mesh.property(net.triangle, net.mesh.face_handle(halfedge));
   }
 
+  std::array<std::uint32_t, 2> added{kNothing, kNothing};
   net.mesh.split(edge_of(edge), net.add_vertex(position_class, point_of(position)));
 
   // `after` and `before` keep their corners; each now has a triangle of its own with two new halfedges.
-  for (const Half& half : halves) {
+  for (std::size_t which = 0; which < 2; ++which) {
+    const Half& half = halves[which];
     if (!half.after.is_valid()) {
       continue;
     }
+    // OpenMesh numbers new faces behind all others.
+    added[which] = std::max(number_of(net.mesh.face_handle(half.after)), number_of(net.mesh.face_handle(half.before)));
     const HalfedgeHandle from_apex = net.mesh.next_halfedge_handle(half.after);
     const HalfedgeHandle from_start = net.mesh.next_halfedge_handle(half.before);
     net.mesh.property(net.corner, from_apex) = half.middle;
@@ -273,6 +295,7 @@ void OpenMeshBridge::halve(std::uint32_t edge, std::uint32_t position_class, con
       net.cuts.push_back(net.mesh.edge_handle(from_apex));
     }
   }
+  return added;
 }
 
 void OpenMeshBridge::end_round() {
@@ -289,20 +312,9 @@ void OpenMeshBridge::write_elements(RefinedMesh& mesh) const {
   mesh.elements.resize(element_count);
   mesh.triangle_of_element.resize(element_count);
   mesh.part_of_element.resize(element_count);
-
-  // Counting sort: where the elements of each triangle begin.
-  std::vector<std::uint32_t> next_of_triangle(net.triangle_count + 1, 0);
   for (const FaceHandle face : net.mesh.faces()) {
-    ++next_of_triangle[net.mesh.property(net.triangle, face) + std::size_t{1}];
-  }
-  for (std::size_t i = 1; i < next_of_triangle.size(); ++i) {
-    next_of_triangle[i] += next_of_triangle[i - 1];
-  }
-
-  for (const FaceHandle face : net.mesh.faces()) {
-    const std::uint32_t triangle = net.mesh.property(net.triangle, face);
-    const std::uint32_t element = next_of_triangle[triangle]++;
-    mesh.triangle_of_element[element] = triangle;
+    const std::uint32_t element = number_of(face);
+    mesh.triangle_of_element[element] = net.mesh.property(net.triangle, face);
     HalfedgeHandle halfedge = net.mesh.halfedge_handle(face);
     for (int i = 0; i < 3; ++i) {
       const Net::Corner& corner = net.mesh.property(net.corner, halfedge);

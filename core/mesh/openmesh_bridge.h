@@ -41,20 +41,28 @@ class OpenMeshBridge {
   bool may_have_copies(std::uint32_t edge) const;
   /// The scene triangle on a side (0 or 1) of `edge`; kNothing beyond a boundary, which is on one side at most.
   std::uint32_t triangle_at(std::uint32_t edge, unsigned int side) const;
+  /// The element on a side of `edge`, in [0, face_count()); kNothing beyond a boundary. Elements keep their numbers.
+  std::uint32_t element_at(std::uint32_t edge, unsigned int side) const;
+  /// The edges of an element.
+  std::array<std::uint32_t, 3> edges_of(std::uint32_t element) const;
+  /// The scene triangle that an element is part of.
+  std::uint32_t triangle_of(std::uint32_t element) const;
   /// How the triangle on a side names the ends of `edge`: vertices of the refined mesh, as the triangle is wound.
   /// REQUIRES: there is one.
   glm::uvec2 vertices_at(std::uint32_t edge, unsigned int side) const;
 
-  /// Opens a round in which `edges` edges, `sides` triangles at them counted, will be halved.
+  /// Opens a round in which `edges` edges, `sides` triangles at them counted, will be halved: those that exist now.
   void begin_round(std::size_t edges, std::size_t sides);
-  /// Halves an edge that existed when the round began: at `position`, which is that of class `position_class`. Side i
-  /// names the midpoint `midpoint_of_side[i]`.
-  void halve(std::uint32_t edge, std::uint32_t position_class, const glm::vec3& position,
-             const std::array<std::uint32_t, 2>& midpoint_of_side);
+  /// Cuts an edge in two: at `position`, which is that of class `position_class`, `at` (0,1) of the way from the first
+  /// of its end_classes() to the second. Side i names the new vertex `vertex_of_side[i]`. The edge keeps its number for
+  /// one of the parts; the element on each side keeps its number for one of its parts; returns the number of the other
+  /// part on each side, kNothing where there is no element.
+  std::array<std::uint32_t, 2> cut(std::uint32_t edge, float at, std::uint32_t position_class,
+                                   const glm::vec3& position, const std::array<std::uint32_t, 2>& vertex_of_side);
   /// Turns edges inside the triangles of this round so that the cut is the one drawn in subdivide_uniform.h.
   void end_round();
 
-  /// Fills in the elements, grouped by ascending triangle. An uncut triangle's corners keep their order.
+  /// Fills in the elements, in the order of their numbers. An uncut triangle's corners keep their order.
   void write_elements(RefinedMesh& mesh) const;
 
  private:

@@ -10,23 +10,37 @@
 
 namespace radiosity {
 
+/// A vertex that cuts the line between two others: (1 - at) of the one and `at` of the other.
+struct Cut {
+  glm::uvec2 ends{0};
+  float at = 0.5F;  ///< (0,1)
+
+  bool operator==(const Cut&) const = default;
+};
+
 /// Shapes: per vertex [vertex_count], per element [element_count]. The scene's vertices come first, unchanged and in
-/// order; vertex `scene_vertex_count + k` is the midpoint of the two earlier vertices `midpoints[k]`.
+/// order; vertex `scene_vertex_count + k` lies between the two earlier vertices that `cuts[k]` names.
 ///
-/// Every attribute of a glTF vertex can be carried over by walking `midpoints` once from front to back. The two ends of
-/// a midpoint always belong to the same glTF primitive, so a seam stays a seam.
+/// Every attribute of a glTF vertex can be carried over by walking `cuts` once from front to back. The two ends of a
+/// cut always belong to the same glTF primitive, so a seam stays a seam.
 struct RefinedMesh {
   std::uint32_t scene_vertex_count = 0;
-  std::vector<glm::uvec2> midpoints;  ///< [vertex_count - scene_vertex_count]
-  std::vector<glm::vec3> positions;   ///< metres
-  std::vector<glm::vec3> normals;     ///< unit, or zero where the scene's are
-  std::vector<glm::uvec3> elements;   ///< vertex indices, wound like their triangle; grouped by ascending triangle
+  std::vector<Cut> cuts;             ///< [vertex_count - scene_vertex_count]
+  std::vector<glm::vec3> positions;  ///< metres
+  std::vector<glm::vec3> normals;    ///< unit, or zero where the scene's are
+  std::vector<glm::uvec3> elements;  ///< vertex indices, wound like their triangle; grouped by ascending triangle
   std::vector<std::uint32_t> triangle_of_element;  ///< the scene triangle an element is part of
   std::vector<SubTriangle> part_of_element;        ///< which part
 };
 
 /// The mesh of an unrefined scene: one element per triangle, in order.
 RefinedMesh unrefined(const Scene& scene);
+
+/// Appends to values at the first vertices, in order, those at the vertices behind them.
+void append_cuts(const RefinedMesh& mesh, std::vector<Rgb>& values);
+
+/// Sorts elements by ascending triangle, as RefinedMesh wants them; those of one triangle keep their order.
+void group_by_triangle(RefinedMesh& mesh, std::size_t triangle_count);
 
 /// Area of an element, m2.
 float element_area(const RefinedMesh& mesh, std::uint32_t element);

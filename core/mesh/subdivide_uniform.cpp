@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/mesh/openmesh_bridge.h"
-#include "core/mesh/weld.h"
+#include "core/mesh/stitch.h"
 
 namespace radiosity {
 namespace {
@@ -25,68 +25,32 @@ constexpr double kDefaultElementCount = 4000.0;
 /// Edges between two looks at the progress: about a millisecond of work.
 constexpr std::size_t kEdgesPerUpdate = 4096;
 
-/// Halfway between two positions, the same from either end.
-glm::vec3 midpoint(const glm::vec3& a, const glm::vec3& b) { return 0.5F * a + 0.5F * b; }
-
-/// Halfway between two shading normals, of unit length again; zero if either is (shaded flat).
-glm::vec3 mid_normal(const glm::vec3& a, const glm::vec3& b) {
-  if (a == glm::vec3(0.0F) || b == glm::vec3(0.0F)) {
-    return glm::vec3(0.0F);
-  }
-  const glm::vec3 sum = a + b;
-  const float length = glm::length(sum);
-  return length > 0.0F ? sum / length : a;  // opposite normals have no middle
-}
-
-double squared_distance(const glm::vec3& a, const glm::vec3& b) {
-  const double x = static_cast<double>(a.x) - static_cast<double>(b.x);
-  const double y = static_cast<double>(a.y) - static_cast<double>(b.y);
-  const double z = static_cast<double>(a.z) - static_cast<double>(b.z);
-  return x * x + y * y + z * z;
-}
-
-/// One number for an unordered pair.
-std::uint64_t pair_key(const glm::uvec2& pair) {
-  return std::uint64_t{std::min(pair.x, pair.y)} << 32U | std::max(pair.x, pair.y);
-}
-
 /// The rounds of a subdivision (see the header), on the edges of a bridge to OpenMesh.
 class Subdivider {
  public:
-  Subdivider(const Scene& scene, const SubdivideOptions& options, const Progress& progress)
-      : options_(options),
-        progress_(progress),
-        welder_(scene.positions.size()),
-        class_of_vertex_(classes_of(scene.positions, welder_)),
-        bridge_(scene.triangles, class_of_vertex_, welder_.positions()) {
-    result_.mesh = unrefined(scene);
-  }
+  Subdivider(CutMesh& cut, const SubdivideOptions& options, const Progress& progress)
+      : options_(options), progress_(progress), cut_(cut), bridge_(cut.bridge) {}
 
-  Subdivision run();
+  /// Returns whether the limit ended it early.
+  bool run();
 
  private:
-  static std::vector<std::uint32_t> classes_of(std::span<const glm::vec3> positions, Welder& welder);
-
   std::int8_t level_of(std::uint32_t triangle) const {
     return options_.level_of_triangle.empty() ? kLevelFromPatchSize : options_.level_of_triangle[triangle];
   }
   bool asks(std::uint32_t triangle, const glm::uvec2& end_classes) const;
-  bool can_be_halved(const glm::uvec2& end_classes) const;
   void report_at(std::uint32_t edge, double from, double to) const;
   void mark(std::uint32_t edge);
   void mark_asked_edges();
   void mark_copies();
   void halve_marked_edges();
-  std::uint32_t add_midpoint(const glm::uvec2& ends);
   std::array<std::uint32_t, 2> midpoint_of_sides(std::uint32_t edge);
   double rounds_left() const;
 
   const SubdivideOptions& options_;
   const Progress& progress_;
-  Welder welder_;  ///< where each position class is; grows with the midpoints
-  std::vector<std::uint32_t> class_of_vertex_;
-  OpenMeshBridge bridge_;
-  Subdivision result_;
+  CutMesh& cut_;
+  OpenMeshBridge& bridge_;
 
   int round_ = 0;
   double progress_before_round_ = 0.0;
@@ -97,15 +61,6 @@ class Subdivider {
   std::unordered_map<std::uint64_t, std::uint32_t> midpoint_of_pair_;  ///< this round, where edges may have copies
 };
 
-std::vector<std::uint32_t> Subdivider::classes_of(std::span<const glm::vec3> positions, Welder& welder) {
-  std::vector<std::uint32_t> class_of_vertex;
-  class_of_vertex.reserve(positions.size());
-  for (const glm::vec3& position : positions) {
-    class_of_vertex.push_back(welder.class_of(position));
-  }
-  return class_of_vertex;
-}
-
 bool Subdivider::asks(std::uint32_t triangle, const glm::uvec2& end_classes) const {
   if (triangle == kNothing) {
     return false;
@@ -115,16 +70,7 @@ bool Subdivider::asks(std::uint32_t triangle, const glm::uvec2& end_classes) con
     return level > round_;
   }
   const double patch_size = static_cast<double>(options_.patch_size);
-  return patch_size > 0.0 && squared_distance(welder_.positions()[end_classes.x], welder_.positions()[end_classes.y]) >
-                                 patch_size * patch_size;
-}
-
-/// False for edges without length, and for those so short that their middle rounds to an end.
-bool Subdivider::can_be_halved(const glm::uvec2& end_classes) const {
-  const glm::vec3& a = welder_.positions()[end_classes.x];
-  const glm::vec3& b = welder_.positions()[end_classes.y];
-  const glm::vec3 middle = midpoint(a, b);
-  return middle != a && middle != b;
+  return patch_size > 0.0 && cut_.squared_length(end_classes) > patch_size * patch_size;
 }
 
 /// Reports now and then while `edge` runs through all edges.
@@ -150,7 +96,7 @@ void Subdivider::mark_asked_edges() {
     report_at(edge, progress_before_round_, progress_before_round_);
     const glm::uvec2 ends = bridge_.end_classes(edge);
     const bool is_asked_for = asks(bridge_.triangle_at(edge, 0), ends) || asks(bridge_.triangle_at(edge, 1), ends);
-    if (is_asked_for && can_be_halved(ends)) {
+    if (is_asked_for && cut_.can_be_halved(ends)) {
       mark(edge);
     }
   }
@@ -179,15 +125,6 @@ void Subdivider::mark_copies() {
   }
 }
 
-std::uint32_t Subdivider::add_midpoint(const glm::uvec2& ends) {
-  RefinedMesh& mesh = result_.mesh;
-  const auto vertex = static_cast<std::uint32_t>(mesh.positions.size());
-  mesh.midpoints.emplace_back(std::min(ends.x, ends.y), std::max(ends.x, ends.y));
-  mesh.positions.push_back(midpoint(mesh.positions[ends.x], mesh.positions[ends.y]));
-  mesh.normals.push_back(mid_normal(mesh.normals[ends.x], mesh.normals[ends.y]));
-  return vertex;
-}
-
 /// One midpoint for each pair of vertices that ends this edge or a copy of it.
 std::array<std::uint32_t, 2> Subdivider::midpoint_of_sides(std::uint32_t edge) {
   const bool may_have_copies = bridge_.may_have_copies(edge);
@@ -202,13 +139,13 @@ std::array<std::uint32_t, 2> Subdivider::midpoint_of_sides(std::uint32_t edge) {
     if (may_have_copies) {
       const auto [found, is_new] = midpoint_of_pair_.try_emplace(pair[side], kNothing);
       if (is_new) {
-        found->second = add_midpoint(ends);
+        found->second = cut_.add_midpoint(ends);
       }
       vertex[side] = found->second;
     } else if (side == 1 && vertex[0] != kNothing && pair[1] == pair[0]) {
       vertex[1] = vertex[0];
     } else {
-      vertex[side] = add_midpoint(ends);
+      vertex[side] = cut_.add_midpoint(ends);
     }
   }
   return vertex;
@@ -220,9 +157,7 @@ void Subdivider::halve_marked_edges() {
   for (std::uint32_t edge = 0; edge < is_marked_.size(); ++edge) {
     report_at(edge, progress_before_round_, progress_after_round_);
     if (is_marked_[edge]) {
-      const glm::uvec2 ends = bridge_.end_classes(edge);
-      const glm::vec3 middle = midpoint(welder_.positions()[ends.x], welder_.positions()[ends.y]);
-      bridge_.halve(edge, welder_.class_of(middle), middle, midpoint_of_sides(edge));
+      cut_.halve(edge, midpoint_of_sides(edge));
     }
   }
   bridge_.end_round();
@@ -234,7 +169,7 @@ double Subdivider::rounds_left() const {
   int level = 0;
   for (std::uint32_t edge = 0; edge < bridge_.edge_count(); ++edge) {
     const glm::uvec2 ends = bridge_.end_classes(edge);
-    longest = std::max(longest, squared_distance(welder_.positions()[ends.x], welder_.positions()[ends.y]));
+    longest = std::max(longest, cut_.squared_length(ends));
   }
   for (const std::int8_t asked : options_.level_of_triangle) {
     level = std::max<int>(level, asked);
@@ -244,9 +179,10 @@ double Subdivider::rounds_left() const {
   return std::max({rounds, static_cast<double>(level), 1.0});
 }
 
-Subdivision Subdivider::run() {
+bool Subdivider::run() {
   const std::size_t max_elements = std::min(options_.max_elements, kMostElements);
   const double expected_rounds = rounds_left();
+  bool reached_limit = false;
   for (;; ++round_) {
     // Each round has four times the work of the one before.
     progress_before_round_ = progress_after_round_;
@@ -259,16 +195,16 @@ Subdivision Subdivider::run() {
     }
     mark_copies();
     if (bridge_.face_count() + marked_side_count_ > max_elements) {
-      result_.reached_limit = true;
+      reached_limit = true;
       break;
     }
     halve_marked_edges();
   }
   if (round_ > 0) {
-    bridge_.write_elements(result_.mesh);
+    cut_.write_elements();
   }
   progress_.update("subdivide", 1.0);
-  return std::move(result_);
+  return reached_limit;
 }
 
 /// Whether no triangle can ask for anything.
@@ -283,13 +219,24 @@ bool wants_nothing(const SubdivideOptions& options) {
 
 }  // namespace
 
+bool subdivide_uniform(CutMesh& cut, const SubdivideOptions& options, const Progress& progress) {
+  progress.update("subdivide", 0.0);
+  return !wants_nothing(options) && Subdivider(cut, options, progress).run();
+}
+
 Subdivision subdivide_uniform(const Scene& scene, const SubdivideOptions& options, const Progress& progress) {
   assert(options.level_of_triangle.empty() || options.level_of_triangle.size() == scene.triangles.size());
   progress.update("subdivide", 0.0);
   if (wants_nothing(options)) {
     return {.mesh = unrefined(scene)};
   }
-  return Subdivider(scene, options, progress).run();
+  CutMesh cut(scene);
+  stitch(cut, options.max_elements - std::min(options.max_elements, scene.triangles.size()));
+  Subdivision result;
+  result.reached_limit = subdivide_uniform(cut, options, progress);
+  result.mesh = std::move(cut.mesh);
+  group_by_triangle(result.mesh, scene.triangles.size());
+  return result;
 }
 
 float default_patch_size(const Scene& scene) {
@@ -299,5 +246,7 @@ float default_patch_size(const Scene& scene) {
   }
   return static_cast<float>(std::sqrt(area / kDefaultElementCount));
 }
+
+float coarse_patch_size(const Scene& scene) { return diagonal(scene) / 3.0F; }
 
 }  // namespace radiosity

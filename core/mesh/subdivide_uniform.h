@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/mesh/cut_mesh.h"
 #include "core/mesh/refined_mesh.h"
 #include "core/progress.h"
 #include "core/scene.h"
@@ -42,7 +43,14 @@ struct Subdivision {
 /// ones included. Deterministic. Throws `Cancelled`.
 Subdivision subdivide_uniform(const Scene& scene, const SubdivideOptions& options, const Progress& progress);
 
+/// The same on a mesh that is to be cut further; its elements are left in the order of their numbers. Returns whether
+/// the limit ended it early.
+bool subdivide_uniform(CutMesh& cut, const SubdivideOptions& options, const Progress& progress);
+
 /// A patch size that suits the scene: sqrt(surface area / 4000), metres.
 float default_patch_size(const Scene& scene);
+
+/// One that adaptive refinement may start from: a third of the diagonal, metres.
+float coarse_patch_size(const Scene& scene);
 
 }  // namespace radiosity

@@ -20,6 +20,9 @@ struct ElementMatrix {
   double xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0, xz = 0.0, yz = 0.0;
 };
 
+/// With more samples in an element than this, smoothness may fade.
+constexpr double kOrdinaryCount = 3.0;
+
 /// The normal equations A x = b of all groups, three bands at once.
 struct System {
   std::vector<ElementMatrix> elements;
@@ -53,7 +56,8 @@ void add_smoothness(double weight, ElementMatrix& m) {
   m.yz -= weight;
 }
 
-System make_system(const RefinedMesh& mesh, const Samples& samples, const SmoothGroups& groups, double damping) {
+System make_system(const RefinedMesh& mesh, const Samples& samples, const SmoothGroups& groups,
+                   const FitOptions& options) {
   System system{{},
                 std::vector<double>(groups.group_count, 0.0),
                 std::vector<glm::dvec3>(groups.group_count, glm::dvec3(0.0)),
@@ -65,7 +69,8 @@ System make_system(const RefinedMesh& mesh, const Samples& samples, const Smooth
     for (std::size_t k = 0; k < 3; ++k) m.group[k] = groups.group_of_vertex[mesh.elements[e][static_cast<int>(k)]];
     const std::uint32_t count = samples.first_of_element[e + 1] - samples.first_of_element[e];
     if (count > 0) add_samples(samples, e, area / count, m, system);
-    add_smoothness(damping * area, m);
+    const double scarcity = options.fades ? std::min(1.0, kOrdinaryCount / count) : 1.0;
+    add_smoothness(options.damping * scarcity * scarcity * area, m);
     system.diagonal[m.group[0]] += m.xx;
     system.diagonal[m.group[1]] += m.yy;
     system.diagonal[m.group[2]] += m.zz;
@@ -98,10 +103,19 @@ glm::dvec3 ratio(const glm::dvec3& a, const glm::dvec3& b) {
   return {b.x > 0.0 ? a.x / b.x : 0.0, b.y > 0.0 ? a.y / b.y : 0.0, b.z > 0.0 ? a.z / b.z : 0.0};
 }
 
+/// The squared residual of nothing at all.
+glm::dvec3 size_of_right(const System& system) {
+  glm::dvec3 sum(0.0);
+  for (std::size_t g = 0; g < system.right.size(); ++g) {
+    if (system.diagonal[g] > 0.0) sum += system.right[g] * system.right[g] / system.diagonal[g];
+  }
+  return sum;
+}
+
 /// Conjugate gradients, preconditioned by the diagonal, each band for itself. Hestenes and Stiefel 1952.
 void solve(const System& system, int max_iterations, std::vector<glm::dvec3>& x) {
   const std::size_t count = x.size();
-  constexpr double kEnough = 1e-10;  // of the squared residual
+  constexpr double kEnough = 1e-12;  // of the squared right side
   std::vector<glm::dvec3> residual(count), direction(count), scaled(count), product(count);
   multiply(system, x, product);
   for (std::size_t g = 0; g < count; ++g) {
@@ -110,7 +124,7 @@ void solve(const System& system, int max_iterations, std::vector<glm::dvec3>& x)
   }
   direction = scaled;
   glm::dvec3 progress = dot(residual, scaled);
-  const glm::dvec3 enough = kEnough * progress;
+  const glm::dvec3 enough = kEnough * size_of_right(system);
   for (int k = 0; k < max_iterations && glm::any(glm::greaterThan(progress, enough)); ++k) {
     multiply(system, direction, product);
     const glm::dvec3 step = ratio(progress, dot(direction, product));
@@ -150,6 +164,12 @@ std::vector<glm::dvec3> first_guess(const RefinedMesh& mesh, const Samples& samp
   return {value.begin(), value.end()};
 }
 
+std::vector<glm::dvec3> by_group(const SmoothGroups& groups, std::span<const Rgb> of_vertex) {
+  std::vector<glm::dvec3> value(groups.group_count);
+  for (std::size_t v = 0; v < of_vertex.size(); ++v) value[groups.group_of_vertex[v]] = glm::dvec3(of_vertex[v]);
+  return value;
+}
+
 /// Groups whose light came out negative in any band are held at none; returns how many are new.
 std::size_t hold_dark(const std::vector<glm::dvec3>& x, System& system) {
   std::size_t held = 0;
@@ -163,10 +183,11 @@ std::size_t hold_dark(const std::vector<glm::dvec3>& x, System& system) {
 
 }  // namespace
 
-std::vector<Rgb> fit_vertices(const RefinedMesh& mesh, const Samples& samples, const FitOptions& options) {
+std::vector<Rgb> fit_vertices(const RefinedMesh& mesh, const Samples& samples, const FitOptions& options,
+                              std::span<const Rgb> guess) {
   const SmoothGroups groups = find_smooth_groups(mesh);
-  System system = make_system(mesh, samples, groups, options.damping);
-  std::vector<glm::dvec3> value = first_guess(mesh, samples, groups);
+  System system = make_system(mesh, samples, groups, options);
+  std::vector<glm::dvec3> value = guess.empty() ? first_guess(mesh, samples, groups) : by_group(groups, guess);
   solve(system, options.max_iterations, value);
 
   // Where the fit undershoots below zero it is held at zero, and the rest fits itself to that.

@@ -8,6 +8,7 @@
 // Kavan, Bargteil and Sloan. Least Squares Vertex Baking. 2011
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/mesh/refined_mesh.h"
@@ -17,12 +18,15 @@ namespace radiosity {
 
 struct FitOptions {
   double damping = 0.02;     ///< weight of smoothness against samples, > 0
+  bool fades = false;        ///< smoothness loses its say where an element has more than three samples
   int max_iterations = 200;  ///< of the conjugate gradients
 };
 
 /// Irradiance at each vertex, [vertex_count], lx, never negative. Vertices of a smooth group (smooth_groups.h) share a
 /// value; nothing crosses a crease. The area-weighted mean of the samples is kept, up to the share that would be
 /// negative. Vertices without samples around them continue their neighbours; what nothing known is joined to is black.
-std::vector<Rgb> fit_vertices(const RefinedMesh& mesh, const Samples& samples, const FitOptions& options);
+/// `guess` [vertex_count], or empty, is where the iteration starts: a fit of the same mesh before it was cut.
+std::vector<Rgb> fit_vertices(const RefinedMesh& mesh, const Samples& samples, const FitOptions& options,
+                              std::span<const Rgb> guess = {});
 
 }  // namespace radiosity

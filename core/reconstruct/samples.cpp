@@ -7,22 +7,13 @@
 #include <numeric>
 
 #include "core/parallel.h"
+#include "core/reconstruct/inherit_samples.h"
 
 namespace radiosity {
 namespace {
 
 /// In an element much larger than others.
 constexpr double kMaxSamplesPerElement = 64.0;
-
-/// Sample `k` of the sequence that runs on from element to element: R2 (Roberts 2018), folded into a triangle, by the
-/// weights of the corners. Kept a little away from the edges, where walls meet.
-glm::vec3 corner_weights(std::uint32_t k) {
-  constexpr std::uint32_t kStepX = 3242174889U, kStepY = 2447445414U;  // in units of 2^-32
-  glm::vec2 at(static_cast<float>((k * kStepX) >> 8U) * 0x1p-24F, static_cast<float>((k * kStepY) >> 8U) * 0x1p-24F);
-  if (at.x + at.y > 1.0F) at = 1.0F - at;
-  at = glm::mix(glm::vec2(1.0F / 3.0F), at, 0.94F);
-  return {1.0F - at.x - at.y, at.x, at.y};
-}
 
 /// The shading normal at a place of an element. Corners without a normal, or whose normal points to the other side,
 /// count as flat.
@@ -63,7 +54,78 @@ std::vector<std::uint32_t> allot(const RefinedMesh& mesh, const SampleOptions& o
   return first;
 }
 
-/// What one sample sees, on the side that shows. Buried if that side is.
+/// Adds samples to what is `known` of each element: those numbered first[e] to first[e + 1], counted from known.taken.
+Samples gather_beside(const Samples& known, const RefinedMesh& mesh, const std::vector<std::uint32_t>& first,
+                      const Gatherer& gatherer, const Progress& progress) {
+  // Everywhere.
+  const std::size_t count = mesh.elements.size(), sample_count = first.back();
+  std::vector<Rgb> irradiance(sample_count);
+  std::vector<std::uint8_t> buried(sample_count, 0);
+  parallel_in_chunks(count, 1024, progress, "gather", [&](std::size_t e) {
+    for (std::uint32_t s = first[e]; s < first[e + 1]; ++s) {
+      const std::uint32_t number = known.taken + s;
+      const auto element = static_cast<std::uint32_t>(e);
+      const Gathered gathered = gather_sample(mesh, gatherer, element, number, corner_weights(number));
+      irradiance[s] = gathered.irradiance;
+      buried[s] = gathered.back_share > kBuriedShare ? 1 : 0;
+    }
+  });
+
+  // Without the buried, behind those that are known.
+  Samples samples;
+  samples.taken = known.taken + static_cast<std::uint32_t>(sample_count);
+  samples.first_of_element.assign(count + 1, 0);
+  samples.buried.assign(count, 0);
+  const auto add = [&samples](Barycentrics at, const glm::vec3& weights, const Rgb& light) {
+    samples.at.push_back(at);
+    samples.weights.push_back(weights);
+    samples.irradiance.push_back(light);
+  };
+  for (std::size_t e = 0; e < count; ++e) {
+    for (std::uint32_t s = known.first_of_element[e]; s < known.first_of_element[e + 1]; ++s) {
+      add(known.at[s], known.weights[s], known.irradiance[s]);
+    }
+    for (std::uint32_t s = first[e]; s < first[e + 1]; ++s) {
+      if (buried[s] != 0) continue;
+      const glm::vec3 weights = corner_weights(known.taken + s);
+      const auto& corner = mesh.part_of_element[e].corner;
+      add(weights.x * corner[0] + weights.y * corner[1] + weights.z * corner[2], weights, irradiance[s]);
+    }
+    samples.first_of_element[e + 1] = static_cast<std::uint32_t>(samples.irradiance.size());
+    const bool none = samples.first_of_element[e + 1] == samples.first_of_element[e];
+    samples.buried[e] = none && (first[e + 1] > first[e] || known.buried[e] != 0) ? 1 : 0;
+  }
+  return samples;
+}
+
+/// How many samples an element lacks that was cut, as running sums.
+std::vector<std::uint32_t> missing(const Samples& known, const RefinedMesh& mesh,
+                                   std::span<const std::uint32_t> origin_of_element, int per_element) {
+  std::vector<std::uint8_t> is_cut(mesh.elements.size(), 0);
+  for (std::uint32_t e = 0; e < is_cut.size(); ++e) {
+    if (origin_of_element[e] != e) is_cut[e] = is_cut[origin_of_element[e]] = 1;
+  }
+  std::vector<std::uint32_t> first(is_cut.size() + 1, 0);
+  for (std::uint32_t e = 0; e < is_cut.size(); ++e) {
+    const auto here = static_cast<int>(known.first_of_element[e + 1] - known.first_of_element[e]);
+    const bool wants = is_cut[e] != 0 && element_area(mesh, e) > 0.0F;
+    first[e + 1] = first[e] + static_cast<std::uint32_t>(wants ? std::max(0, per_element - here) : 0);
+  }
+  return first;
+}
+
+}  // namespace
+
+// R2 (Roberts 2018), folded into a triangle. Kept a little away from the edges, where walls meet.
+glm::vec3 corner_weights(std::uint32_t number) {
+  constexpr std::uint32_t kStepX = 3242174889U, kStepY = 2447445414U;  // in units of 2^-32
+  glm::vec2 at(static_cast<float>((number * kStepX) >> 8U) * 0x1p-24F,
+               static_cast<float>((number * kStepY) >> 8U) * 0x1p-24F);
+  if (at.x + at.y > 1.0F) at = 1.0F - at;
+  at = glm::mix(glm::vec2(1.0F / 3.0F), at, 0.94F);
+  return {1.0F - at.x - at.y, at.x, at.y};
+}
+
 Gathered gather_sample(const RefinedMesh& mesh, const Gatherer& gatherer, std::uint32_t e, std::uint32_t sample,
                        const glm::vec3& weights) {
   const glm::uvec3& element = mesh.elements[e];
@@ -81,38 +143,20 @@ Gathered gather_sample(const RefinedMesh& mesh, const Gatherer& gatherer, std::u
   return gathered;
 }
 
-}  // namespace
-
 Samples gather_samples(const RefinedMesh& mesh, const Gatherer& gatherer, const SampleOptions& options,
                        const Progress& progress) {
-  // Everywhere.
-  const std::vector<std::uint32_t> first = allot(mesh, options);
-  const std::size_t count = mesh.elements.size(), sample_count = first.back();
-  std::vector<Rgb> irradiance(sample_count);
-  std::vector<std::uint8_t> buried(sample_count, 0);
-  parallel_in_chunks(count, 1024, progress, "gather", [&](std::size_t e) {
-    for (std::uint32_t s = first[e]; s < first[e + 1]; ++s) {
-      const Gathered gathered = gather_sample(mesh, gatherer, static_cast<std::uint32_t>(e), s, corner_weights(s));
-      irradiance[s] = gathered.irradiance;
-      buried[s] = gathered.back_share > kBuriedShare ? 1 : 0;
-    }
-  });
+  const std::size_t count = mesh.elements.size();
+  Samples none;
+  none.first_of_element.assign(count + 1, 0);
+  none.buried.assign(count, 0);
+  return gather_beside(none, mesh, allot(mesh, options), gatherer, progress);
+}
 
-  // Without the buried.
-  Samples samples;
-  samples.first_of_element.assign(count + 1, 0);
-  samples.buried.assign(count, 0);
-  for (std::size_t e = 0; e < count; ++e) {
-    for (std::uint32_t s = first[e]; s < first[e + 1]; ++s) {
-      if (buried[s] != 0) continue;
-      samples.weights.push_back(corner_weights(s));
-      samples.irradiance.push_back(irradiance[s]);
-    }
-    samples.first_of_element[e + 1] = static_cast<std::uint32_t>(samples.irradiance.size());
-    const bool none = samples.first_of_element[e + 1] == samples.first_of_element[e];
-    samples.buried[e] = none && first[e + 1] > first[e] ? 1 : 0;
-  }
-  return samples;
+Samples samples_after_cuts(const Samples& samples, const RefinedMesh& mesh,
+                           std::span<const std::uint32_t> origin_of_element, const Gatherer& gatherer,
+                           const SampleOptions& options, const Progress& progress) {
+  const Samples known = inherit_samples(samples, mesh, origin_of_element);
+  return gather_beside(known, mesh, missing(known, mesh, origin_of_element, options.per_element), gatherer, progress);
 }
 
 ElementLight mean_of_samples(const Samples& samples) {

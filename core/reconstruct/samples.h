@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/mesh/refined_mesh.h"
@@ -25,15 +26,33 @@ struct Samples {
   std::vector<glm::vec3> weights;               ///< of the element's corners, summing to 1
   std::vector<Rgb> irradiance;                  ///< H, lx
   std::vector<std::uint8_t> buried;             ///< [element_count]: 1 where samples were taken and all were buried
+  std::vector<Barycentrics> at{};               ///< in the element's triangle; [sample_count()]
+  std::uint32_t taken = 0;                      ///< samples so far, buried ones included
 
   std::size_t sample_count() const { return irradiance.size(); }
 };
+
+/// The weights of an element's corners at the place of sample `number`, in a sequence that runs on from element to
+/// element.
+glm::vec3 corner_weights(std::uint32_t number);
+
+/// What is seen from the place of element `e` where its corners have these weights, on the side that shows; buried if
+/// that side is. `number` picks the place in the low-discrepancy sequences.
+Gathered gather_sample(const RefinedMesh& mesh, const Gatherer& gatherer, std::uint32_t e, std::uint32_t number,
+                       const glm::vec3& weights);
 
 /// Gathers at samples inside each element: `per_element`, more where it is larger than others, fewer where a mesh is
 /// finer than its light. A surface that is lit on both sides shows its front; its back where the front is buried.
 /// Parallel; throws `Cancelled`.
 Samples gather_samples(const RefinedMesh& mesh, const Gatherer& gatherer, const SampleOptions& options,
                        const Progress& progress);
+
+/// After the mesh was cut further: `samples` pass to the elements that they now lie in, and elements that were cut and
+/// hold fewer than `per_element` get more. `origin_of_element` [element_count] says which element of before each one
+/// was part of. Parallel; throws `Cancelled`.
+Samples samples_after_cuts(const Samples& samples, const RefinedMesh& mesh,
+                           std::span<const std::uint32_t> origin_of_element, const Gatherer& gatherer,
+                           const SampleOptions& options, const Progress& progress);
 
 /// Light per element, [element_count].
 struct ElementLight {

@@ -12,6 +12,7 @@
 #include <string>
 #include <tuple>
 
+#include "core/mesh/t_vertices.h"
 #include "core/photometry.h"
 #include "tests/core/test_scenes.h"
 #include "tests/core/test_skies.h"
@@ -97,7 +98,7 @@ TEST(Bake, MakesAsManyPatchesAsTheMeshIsWorth) {
   EXPECT_EQ(automatic_patches(9000, 8), 1500);
   EXPECT_EQ(automatic_patches(0, 2), 125);
   BakeOptions options;
-  options.refine_uniform = false;
+  options.refine = Refine::kNone;
   const BakeReport automatic = bake(test::cornell_box(), options, {}).report;
   EXPECT_LE(automatic.patch_count, 1000U);
   EXPECT_GT(automatic.patch_count, 500U);
@@ -240,7 +241,7 @@ TEST(Bake, IsNearlyTheSameForPermutedTriangles) {
   // Other samples, the same light. Single vertices differ by more than this mean where a shadow ends in an element.
   const Scene scene = test::tessellated(test::cornell_box(), 4);
   BakeOptions options = quick(0.0F);
-  options.refine_uniform = false;
+  options.refine = Refine::kNone;
   options.max_patches = 8000;
   const Bake a = bake(scene, options, {}), b = bake(permuted(scene), options, {});
   EXPECT_LT(difference(a, b).rms, 0.025);  // 0.015
@@ -251,7 +252,7 @@ TEST(Bake, IsNearlyTheSameAtEveryVertexForPermutedTrianglesWhereNoShadowEnds) {
   Scene scene = test::tessellated(test::box_room({1, 2, 3}, {.reflectance = Rgb(0.6F)}), 8);
   scene.lights = {{.kind = Light::Kind::kPoint, .position = {0.5F, 1.0F, 1.5F}}};
   BakeOptions options = quick(0.0F);
-  options.refine_uniform = false;
+  options.refine = Refine::kNone;
   options.max_patches = 4000;
   EXPECT_LT(difference(bake(scene, options, {}), bake(permuted(scene), options, {})).largest, 0.05);  // 0.034
 }
@@ -489,14 +490,16 @@ TEST(Bake, StopsInEveryPhaseWhenCancelled) {
                               if (phases.empty() || phases.back() != phase) phases.emplace_back(phase);
                             },
                         .cancelled = {}};
-  bake(scene, quick(0.1F), listen);
-  EXPECT_GE(phases.size(), 5U);
+  BakeOptions options = quick(0.3F);
+  options.refine = Refine::kAdaptive;
+  bake(scene, options, listen);
+  EXPECT_GE(phases.size(), 6U);
 
   for (const std::string& phase : phases) {
     std::string current;
     const Progress stop{.report = [&](std::string_view p, double) { current = p; },
                         .cancelled = [&] { return current == phase; }};
-    EXPECT_THROW(bake(scene, quick(0.1F), stop), Cancelled) << phase;
+    EXPECT_THROW(bake(scene, options, stop), Cancelled) << phase;
   }
 }
 
@@ -515,9 +518,98 @@ TEST(Bake, CountsWhatItMade) {
 
 TEST(Bake, KeepsTheScenesTrianglesWhenNotRefined) {
   BakeOptions options = quick(0.1F);
-  options.refine_uniform = false;
+  options.refine = Refine::kNone;
   const Scene scene = test::cornell_box();
   EXPECT_EQ(bake(scene, options, {}).mesh.elements, scene.triangles);
+}
+
+BakeOptions adaptive(double max_error, std::size_t max_vertices) {
+  BakeOptions options = quick(0.3F);
+  options.refine = Refine::kAdaptive;
+  options.adapt.max_error = max_error;
+  options.adapt.max_vertices = max_vertices;
+  return options;
+}
+
+std::size_t t_vertices_in(const RefinedMesh& mesh) {
+  return find_t_vertices(mesh.positions, mesh.elements, rounding_tolerance(mesh.positions)).size();
+}
+
+TEST(Bake, EndsWithTheCoarseMeshUnderConstantLight) {
+  Scene scene = test::floor_only();
+  scene.lights = {{.kind = Light::Kind::kDirectional, .direction = {0, -1, 0}, .intensity = Rgb(3.0F)}};
+  BakeOptions options = adaptive(0.001, 1000);
+  options.subdivide.patch_size = 10.0F;
+  const Bake baked = bake(scene, options, {});
+  EXPECT_EQ(baked.mesh.elements, scene.triangles);
+  EXPECT_EQ(baked.report.refine_end, RefineEnd::kError);
+  EXPECT_LT(baked.report.estimated_error, 1e-4);
+}
+
+TEST(Bake, RefinesOnlyAlongTheEdgeOfAShadow) {
+  // The sun casts the shadow of a square on the floor: |x| or |z| is 0.5 along its edge.
+  Scene scene = test::occluder();
+  scene.surfaces[2].emission = Rgb(0.0F);
+  scene.lights = {{.kind = Light::Kind::kDirectional, .direction = {0, -1, 0}, .intensity = Rgb(10.0F)}};
+  const auto edge_distance = [](const glm::vec3& p) { return std::abs(std::max(std::abs(p.x), std::abs(p.z)) - 0.5F); };
+  BakeOptions options = adaptive(1e-6, 1500);
+  options.subdivide.patch_size = 0.5F;
+  const Bake baked = bake(scene, options, {});
+  EXPECT_EQ(baked.report.refine_end, RefineEnd::kLimit);
+  std::size_t small = 0, far = 0;
+  for (std::uint32_t e = 0; e < baked.mesh.elements.size(); ++e) {
+    if (element_area(baked.mesh, e) > 0.01F) continue;
+    const glm::uvec3& corner = baked.mesh.elements[e];
+    const float distance =
+        std::min({edge_distance(baked.mesh.positions[corner.x]), edge_distance(baked.mesh.positions[corner.y]),
+                  edge_distance(baked.mesh.positions[corner.z])});
+    ++small;
+    far += distance > 0.3F ? 1U : 0U;
+  }
+  EXPECT_GT(small, 1000U);
+  EXPECT_LT(far, small / 50);
+}
+
+TEST(Bake, EndsRefinementWhereItIsTold) {
+  const Scene scene = test::cornell_box();
+  const Bake by_error = bake(scene, adaptive(0.04, 100'000), {});
+  EXPECT_EQ(by_error.report.refine_end, RefineEnd::kError);
+  EXPECT_LE(by_error.report.estimated_error, 0.04);
+  EXPECT_GT(by_error.report.refine_rounds, 2U);
+
+  const Bake by_vertices = bake(scene, adaptive(1e-6, 500), {});
+  EXPECT_EQ(by_vertices.report.refine_end, RefineEnd::kLimit);
+  EXPECT_LE(by_vertices.mesh.positions.size(), 500U);
+  EXPECT_GT(by_vertices.mesh.positions.size(), 495U);
+
+  BakeOptions coarse = adaptive(1e-6, 100'000);
+  coarse.adapt.min_edge = 0.12F;
+  EXPECT_EQ(bake(scene, coarse, {}).report.refine_end, RefineEnd::kFloor);
+}
+
+TEST(Bake, RefinesWithoutCracksAndKeepsOldVertices) {
+  for (const Scene& scene : {test::cornell_box(), test::sunk_box(0.5F), test::many_boxes(5, 3)}) {
+    const std::size_t before = t_vertices_in(unrefined(scene));
+    const Bake baked = bake(scene, adaptive(0.01, scene.positions.size() + 500), {});
+    EXPECT_LE(t_vertices_in(baked.mesh), before);
+    ASSERT_GT(baked.mesh.positions.size(), scene.positions.size());
+    EXPECT_TRUE(std::equal(scene.positions.begin(), scene.positions.end(), baked.mesh.positions.begin()));
+    EXPECT_TRUE(std::ranges::is_sorted(baked.mesh.triangle_of_element));
+  }
+}
+
+TEST(Bake, RefinesToTheSameBytesForAnyNumberOfThreads) {
+  const Scene scene = test::cornell_box();
+  BakeOptions options = adaptive(0.01, 800);
+  options.threads = 1;
+  const Bake one = bake(scene, options, {});
+  for (const int threads : {2, 7}) {
+    options.threads = threads;
+    const Bake more = bake(scene, options, {});
+    EXPECT_EQ(more.mesh.elements, one.mesh.elements);
+    EXPECT_TRUE(same_bytes(more.irradiance, one.irradiance));
+    EXPECT_EQ(more.report.estimated_error, one.report.estimated_error);
+  }
 }
 
 }  // namespace

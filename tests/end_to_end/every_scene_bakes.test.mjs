@@ -4,12 +4,13 @@ import fs from 'node:fs'
 import path from 'node:path'
 import test from 'node:test'
 import { check_baked } from './baked.mjs'
-import { bake, cheapest, sanitized, temporary_folder, test_asset } from './command_line.mjs'
+import { bake, cheapest, run, sanitized, temporary_folder, test_asset } from './command_line.mjs'
 
 const folder = temporary_folder()
 const option_sets = [
   { output: 'as_it_is.glb', options: ['--refine', 'none'] },
   { output: 'uniform.gltf', options: ['--refine', 'uniform', '--color-type', 'u16'] },
+  { output: 'adaptive.glb', options: ['--refine', 'adaptive', '--max-error', '0.05'] },
   { output: 'uniform.embedded.gltf', options: ['--refine', 'none', '--color-type', 'u8', '--sky', '0.2,0.3,0.5'] },
 ]
 const scenes = fs.readdirSync(test_asset('')).filter((name) => /\.(glb|gltf)$/.test(name))
@@ -27,4 +28,21 @@ for (const scene of scenes.filter((name) => !too_slow.includes(name))) {
       await check_baked(test_asset(scene), target)
     })
   }
+}
+
+// Vertices inside a neighbour's edge: those that a file comes with may stay, there are never more.
+const t_vertices = (scene, target) => {
+  const { code, stdout, stderr } = run('verify', scene, target, '--points', 1, '--max-samples', 64, '--progress', 'none', '--json', '-')
+  assert.equal(code, 0, stderr)
+  return JSON.parse(stdout).tVertices
+}
+
+for (const scene of scenes.filter((name) => !too_slow.includes(name))) {
+  test(`${scene} gets no crack`, () => {
+    const baked = (output) => path.join(folder, scene, output)
+    const before = t_vertices(test_asset(scene), baked('as_it_is.glb'))
+    for (const output of ['uniform.gltf', 'adaptive.glb']) {
+      assert.ok(t_vertices(test_asset(scene), baked(output)) <= before, output)
+    }
+  })
 }

@@ -83,7 +83,7 @@ TEST(ExportMeshes, EveryInstanceCountsFromZero) {
   for (const RefinedPrimitive& primitive : refined) {
     EXPECT_TRUE(primitive.changed);
     EXPECT_EQ(primitive.vertices.size(), 9U);
-    EXPECT_EQ(primitive.midpoints.size(), 5U);
+    EXPECT_EQ(primitive.cuts.size(), 5U);
     EXPECT_EQ(primitive.source_vertex_count(), 4U);
     EXPECT_EQ(primitive.triangles.size(), 8U);
     EXPECT_EQ(primitive.elements.size(), 8U);
@@ -95,9 +95,9 @@ TEST(ExportMeshes, EveryInstanceCountsFromZero) {
 TEST(ExportMeshes, MidpointsComeAfterTheirEnds) {
   const HandBake hand = bake_by_hand(one_mesh(unit_square()), 3, kLight);
   const auto refined = split_by_instance(hand.bake.mesh, hand.scene);
-  for (std::uint32_t k = 0; k < refined[0].midpoints.size(); ++k) {
-    EXPECT_LT(refined[0].midpoints[k].x, 4 + k);
-    EXPECT_LT(refined[0].midpoints[k].y, 4 + k);
+  for (std::uint32_t k = 0; k < refined[0].cuts.size(); ++k) {
+    EXPECT_LT(refined[0].cuts[k].ends.x, 4 + k);
+    EXPECT_LT(refined[0].cuts[k].ends.y, 4 + k);
   }
 }
 

@@ -10,11 +10,13 @@
 namespace gltf_radiosity {
 namespace {
 
+using radiosity::Cut;
+
 using testing::ElementsAre;
 using testing::FloatNear;
 using testing::Pointwise;
 
-const std::vector<glm::uvec2> kOneMidpoint = {{0, 1}};
+const std::vector<Cut> kMiddle = {{{0, 1}, 0.5F}};
 
 RawAccessor raw_of(const std::vector<float>& values, int components, ComponentType component = ComponentType::kF32,
                    bool normalized = false) {
@@ -30,9 +32,30 @@ std::vector<float> third_row(const RawAccessor& raw) {
 }
 
 std::vector<float> midpoint(RawAccessor raw, Interpolation how) {
-  append_midpoints(raw, how, kOneMidpoint);
+  append_cuts(raw, how, kMiddle);
   EXPECT_EQ(raw.count, 3U);
   return third_row(raw);
+}
+
+TEST(InterpolateAttributes, GoesByTheDistanceFromBothEnds) {
+  const std::vector<Cut> near_second = {{{0, 1}, 0.75F}};
+  RawAccessor linear = raw_of({0, 8, 4, 0}, 2);
+  append_cuts(linear, Interpolation::kLinear, near_second);
+  EXPECT_THAT(third_row(linear), ElementsAre(3, 2));
+
+  RawAccessor ids = raw_of({7, 9}, 1, ComponentType::kU16);
+  append_cuts(ids, Interpolation::kLabel, near_second);
+  EXPECT_THAT(third_row(ids), ElementsAre(9)) << "of the nearer end";
+
+  RawAccessor tangent = raw_of({1, 0, 0, -1, 0, 1, 0, 1}, 4);
+  append_cuts(tangent, Interpolation::kTangent, near_second);
+  EXPECT_THAT(third_row(tangent), ElementsAre(FloatNear(0.3162278F, 1e-6F), FloatNear(0.9486833F, 1e-6F), 0, 1));
+
+  std::vector<SkinSet> skin = {
+      {raw_of({5, 0, 0, 0, 6, 0, 0, 0}, 4, ComponentType::kU8), raw_of({1, 0, 0, 0, 1, 0, 0, 0}, 4)}};
+  append_cuts(skin, near_second);
+  EXPECT_THAT(third_row(skin[0].joints), ElementsAre(6, 5, 0, 0));
+  EXPECT_THAT(third_row(skin[0].weights), ElementsAre(0.75F, 0.25F, 0, 0));
 }
 
 TEST(InterpolateAttributes, AMidpointIsTheMeanOfItsEnds) {
@@ -50,16 +73,16 @@ TEST(InterpolateAttributes, ExistingBytesStayWhateverTheyAre) {
   const std::uint32_t odd_nan = 0x7fc12345U;
   std::memcpy(raw.bytes.data() + 4, &odd_nan, 4);
   const Bytes before = raw.bytes;
-  append_midpoints(raw, Interpolation::kLinear, kOneMidpoint);
+  append_cuts(raw, Interpolation::kLinear, kMiddle);
   EXPECT_TRUE(std::equal(before.begin(), before.end(), raw.bytes.begin()));
 }
 
 TEST(InterpolateAttributes, MidpointsOfMidpointsAreNotRoundedInBetween) {
   RawAccessor raw{ComponentType::kU8, 1, false, 2, {0, 1}};
-  append_midpoints(raw, Interpolation::kLinear, std::vector<glm::uvec2>{{0, 1}, {2, 1}, {3, 1}});
+  append_cuts(raw, Interpolation::kLinear, std::vector<Cut>{{{0, 1}, 0.5F}, {{2, 1}, 0.5F}, {{3, 1}, 0.5F}});
   EXPECT_EQ(raw.bytes, (Bytes{0, 1, 1, 1, 1}));
   RawAccessor low{ComponentType::kU8, 1, false, 2, {0, 1}};
-  append_midpoints(low, Interpolation::kLinear, std::vector<glm::uvec2>{{0, 1}, {2, 0}, {3, 0}});
+  append_cuts(low, Interpolation::kLinear, std::vector<Cut>{{{0, 1}, 0.5F}, {{2, 0}, 0.5F}, {{3, 0}, 0.5F}});
   EXPECT_EQ(low.bytes, (Bytes{0, 1, 1, 0, 0}));  // 0.5, 0.25, 0.125
 }
 
@@ -116,14 +139,14 @@ SkinSet skin(const std::vector<float>& joints, const std::vector<float>& weights
 
 TEST(InterpolateAttributes, InfluencesOfBothEndsAreMerged) {
   std::vector<SkinSet> sets = {skin({1, 2, 0, 0, 2, 0, 0, 0}, {0.5F, 0.5F, 0, 0, 1, 0, 0, 0})};
-  append_midpoints(sets, kOneMidpoint);
+  append_cuts(sets, kMiddle);
   EXPECT_THAT(third_row(sets[0].joints), ElementsAre(2, 1, 0, 0));
   EXPECT_THAT(third_row(sets[0].weights), ElementsAre(0.75F, 0.25F, 0, 0));
 }
 
 TEST(InterpolateAttributes, TheStrongestFourInfluencesAreKept) {
   std::vector<SkinSet> sets = {skin({1, 2, 3, 4, 5, 6, 7, 8}, {0.4F, 0.3F, 0.2F, 0.1F, 0.4F, 0.3F, 0.2F, 0.1F})};
-  append_midpoints(sets, kOneMidpoint);
+  append_cuts(sets, kMiddle);
   EXPECT_THAT(third_row(sets[0].joints), ElementsAre(1, 5, 2, 6));
   EXPECT_THAT(third_row(sets[0].weights),
               Pointwise(FloatNear(1e-6F), {0.4F / 1.4F, 0.4F / 1.4F, 0.3F / 1.4F, 0.3F / 1.4F}));
@@ -132,7 +155,7 @@ TEST(InterpolateAttributes, TheStrongestFourInfluencesAreKept) {
 TEST(InterpolateAttributes, TwoSetsKeepEightInfluences) {
   const std::vector<float> quarters(8, 0.125F);
   std::vector<SkinSet> sets = {skin({1, 2, 3, 4, 5, 6, 7, 8}, quarters), skin({9, 10, 11, 12, 1, 2, 3, 4}, quarters)};
-  append_midpoints(sets, kOneMidpoint);
+  append_cuts(sets, kMiddle);
   EXPECT_THAT(third_row(sets[0].joints), ElementsAre(1, 2, 3, 4));  // on both ends
   EXPECT_THAT(third_row(sets[1].joints), ElementsAre(5, 6, 7, 8));
   std::vector<float> weights = third_row(sets[0].weights);
@@ -144,7 +167,7 @@ TEST(InterpolateAttributes, TwoSetsKeepEightInfluences) {
 TEST(InterpolateAttributes, StoredBytesOfWeightsAddUpToOne) {
   std::vector<SkinSet> sets = {
       skin({1, 2, 3, 0, 4, 5, 6, 0}, {1.0F / 3, 1.0F / 3, 1.0F / 3, 0, 0.9F, 0.05F, 0.05F, 0}, ComponentType::kU8)};
-  append_midpoints(sets, kOneMidpoint);
+  append_cuts(sets, kMiddle);
   const Bytes& bytes = sets[0].weights.bytes;
   EXPECT_EQ(std::accumulate(bytes.begin() + 8, bytes.end(), 0), 255);
 }
@@ -152,14 +175,14 @@ TEST(InterpolateAttributes, StoredBytesOfWeightsAddUpToOne) {
 TEST(InterpolateAttributes, AJointWithoutWeightIsZero) {
   std::vector<SkinSet> sets = {skin({3, 4, 0, 0, 3, 0, 0, 0}, {0.999F, 0.001F, 0, 0, 1, 0, 0, 0}, ComponentType::kU16)};
   sets[0].weights = raw_of({0.999F, 0.001F, 0, 0, 1, 0, 0, 0}, 4, ComponentType::kU8, true);
-  append_midpoints(sets, kOneMidpoint);
+  append_cuts(sets, kMiddle);
   EXPECT_THAT(third_row(sets[0].joints), ElementsAre(3, 0, 0, 0));
   EXPECT_THAT(third_row(sets[0].weights), ElementsAre(1, 0, 0, 0));
 }
 
 TEST(InterpolateAttributes, AVertexWithoutInfluencesHasNone) {
   std::vector<SkinSet> sets = {skin({5, 0, 0, 0, 6, 0, 0, 0}, std::vector<float>(8, 0.0F))};
-  append_midpoints(sets, kOneMidpoint);
+  append_cuts(sets, kMiddle);
   EXPECT_THAT(third_row(sets[0].joints), ElementsAre(0, 0, 0, 0));
   EXPECT_THAT(third_row(sets[0].weights), ElementsAre(0, 0, 0, 0));
 }

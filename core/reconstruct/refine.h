@@ -1,0 +1,53 @@
+// Which elements the fit cannot represent, and how wrong the whole is.
+//
+// Elements are ranked by how far the samples in them are from what the display mesh shows there. That is no measure of
+// the error: samples are noisy, those that took part in a fit are closer to it than other places are, and elements that
+// were lucky with their samples are not cut. So the error is checked at places of its own, each of which is looked at
+// from twice: the noise of both looks is independent, and the mean product of both differences from what is shown is
+// the mean square of the error.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/mesh/refined_mesh.h"
+#include "core/reconstruct/samples.h"
+#include "core/scene.h"
+
+namespace radiosity {
+
+/// In which space elements are ranked.
+enum class ErrorSpace : std::uint8_t {
+  kDisplay,  ///< as an eye that is adapted to the mean sees it: a step in the dark counts more than in the light
+  kLinear    ///< luminance
+};
+
+struct MisfitOptions {
+  ErrorSpace space = ErrorSpace::kDisplay;
+  float exposure = 0.0F;  ///< k, m2/cd, at which light is cut off at white; 0 chooses as automatic_exposure() does
+};
+
+/// Luminance in cd/m2. What is white at all corners of an element hides its error.
+struct Misfit {
+  std::vector<double> squared;     ///< area x mean squared residual of the samples, [element_count]
+  std::vector<double> of_element;  ///< the same in the space asked for
+  double mean = 0.0;               ///< over the surface that has samples
+};
+
+/// The misfit of `irradiance` (at the vertices, lx). Parallel; deterministic.
+Misfit measure_misfit(const Scene& scene, const RefinedMesh& mesh, const Samples& samples,
+                      std::span<const Rgb> irradiance, const MisfitOptions& options);
+
+/// How wrong the whole is, by `place_count` places, more of them where `misfit` is larger. Parallel; throws
+/// `Cancelled`.
+double check_error(const RefinedMesh& mesh, const Samples& samples, std::span<const Rgb> irradiance,
+                   const Misfit& misfit, const Gatherer& gatherer, std::size_t place_count,
+                   const MisfitOptions& options, const Progress& progress);
+
+/// What to cut next: of those elements that `may_be_cut` [element_count], worst first, as many as have half of all
+/// their misfit, but an eighth of all elements at most and a 64th at least.
+std::vector<std::uint32_t> worst_elements(const Misfit& misfit, std::span<const std::uint8_t> may_be_cut);
+
+}  // namespace radiosity
