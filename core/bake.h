@@ -5,10 +5,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/mesh/display_mesh.h"
 #include "core/mesh/refined_mesh.h"
 #include "core/mesh/subdivide_uniform.h"
 #include "core/progress.h"
-#include "core/reconstruct/refine.h"
+#include "core/reconstruct/reconstruct.h"
 #include "core/scene.h"
 
 namespace radiosity {
@@ -18,24 +19,6 @@ enum class Visibility : std::uint8_t { kAuto, kRaster, kRays };
 
 /// Which method solves for the light between the patches.
 enum class Solver : std::uint8_t { kProgressive, kGathering };
-
-/// What the display mesh is: the scene's own triangles, cut to one size, or cut where the light needs it.
-enum class Refine : std::uint8_t { kNone, kUniform, kAdaptive };
-
-/// Why refinement came to its end.
-enum class RefineEnd : std::uint8_t { kNotAdaptive, kError, kLimit, kFloor };
-
-/// Where the display mesh is cut when the light decides.
-struct RefineOptions {
-  double max_error = 0.02;       ///< enough when the estimate of the relative RMSE is not above this, > 0
-  std::size_t max_vertices = 0;  ///< no more than this, those of the scene included; 0: see automatic_max_vertices()
-  ErrorSpace space = ErrorSpace::kDisplay;  ///< what decides which elements are cut first
-  float exposure = 0.0F;                    ///< k, m2/cd, at which what is brighter than white is clipped; 0: automatic
-  float min_edge = 0.0F;  ///< elements no longer than this are not cut, metres; 0: a sixteenth of default_patch_size()
-};
-
-/// How samples become light at vertices.
-enum class Fit : std::uint8_t { kLeastSquares, kInterpolate };
 
 struct BakeOptions {
   Refine refine = Refine::kUniform;
@@ -57,9 +40,6 @@ struct BakeOptions {
 /// 1.9 % wrong with 1 000 patches, 1.8 % with 3 000, and 1.7 % with 10 000 at 3.4 times the time; a map of a hundred
 /// rooms 11.8 % with 10 000, 8.6 % with 20 000, 7.3 % with 30 000.
 int automatic_patches(std::size_t element_count, int hemicube_resolution);
-
-/// What adaptive refinement may use unless told: the scene's own vertices and 16 000 more.
-std::size_t automatic_max_vertices(const Scene& scene);
 
 /// What was done, for reports. Fluxes are in lumen, all bands weighted to luminance.
 struct BakeReport {

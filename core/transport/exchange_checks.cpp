@@ -29,7 +29,10 @@ ExchangeChecks check_exchange(const Patches& patches, const RowCache& rows) {
     const double sum =
         std::accumulate(row->factor.begin(), row->factor.end(), double{row->to_sky} + double{row->to_backs});
     checks.closure_error = std::max(checks.closure_error, std::abs(1.0 - sum));
+    // What is out of the light's reach is one patch wherever it lies, and exchanges none.
+    if (i == patches.unreached) continue;
     for (std::size_t k = 0; k < row->patch.size(); ++k) {
+      if (row->patch[k] == patches.unreached) continue;
       exchanged[region(i) * kRegions + region(row->patch[k])] += double{patches.area[i]} * double{row->factor[k]};
     }
   }
