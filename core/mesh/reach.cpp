@@ -167,7 +167,7 @@ std::vector<std::uint8_t> find_reached(const RayScene& rays, const Patches& patc
     }
     // Whoever is first, the flag that is set is the same.
     for (std::size_t k = 0; out && k < passed.size(); ++k) {
-      std::atomic_ref(reached[passed[k]]).store(1, std::memory_order_relaxed);
+      if (passed[k] < patch_count) std::atomic_ref(reached[passed[k]]).store(1, std::memory_order_relaxed);
     }
   });
   const bool nothing = std::find(reached.begin(), reached.end(), 1) == reached.end();

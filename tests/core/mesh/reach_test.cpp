@@ -90,6 +90,17 @@ TEST(FindReached, ReachesARoomThroughASmallWindow) {
   EXPECT_TRUE(all(Reached(scene).reached));
 }
 
+TEST(FindReached, LeavesPatchesAloneThatItIsNotAskedAbout) {
+  // The last patch is what is known to be dark; walks through the tiles under the wall lead there too.
+  Scene scene = two_rooms();
+  scene.lights = {{.kind = Light::Kind::kPoint, .position = {0.1F, 0.1F, 0.1F}}};
+  const Reached rooms(scene);
+  ASSERT_EQ(rooms.patches.unreached, rooms.patches.patch_count() - 1);
+  const auto reached = find_reached(rooms.rays, rooms.patches, rooms.patches.unreached, {});
+  EXPECT_EQ(reached.size(), rooms.patches.unreached);
+  EXPECT_TRUE(std::equal(reached.begin(), reached.end(), rooms.reached.begin()));
+}
+
 TEST(FindReached, IsTheSameForAnyNumberOfThreads) {
   Scene scene = two_rooms();
   scene.lights = {{.kind = Light::Kind::kPoint, .position = {0.1F, 0.1F, 0.1F}}};
