@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -125,6 +126,7 @@ void solve(const System& system, int max_iterations, std::vector<glm::dvec3>& x)
   direction = scaled;
   glm::dvec3 progress = dot(residual, scaled);
   const glm::dvec3 enough = kEnough * size_of_right(system);
+  assert(!glm::any(glm::isnan(progress)));
   for (int k = 0; k < max_iterations && glm::any(glm::greaterThan(progress, enough)); ++k) {
     multiply(system, direction, product);
     const glm::dvec3 step = ratio(progress, dot(direction, product));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -9,18 +10,23 @@
 namespace radiosity {
 namespace {
 
-/// The weights of the corners of `part` at a place of its triangle: all positive inside.
+/// The weights of the corners of `part` at a place of its triangle: all positive inside. Nothing lies inside a part
+/// without area, which is what rounding leaves of one that was cut very close to a corner.
 glm::vec3 weights_in(const SubTriangle& part, Barycentrics at) {
-  const auto cross = [](const glm::vec2& u, const glm::vec2& v) { return u.x * v.y - u.y * v.x; };
-  const glm::vec2 u = part.corner[1] - part.corner[0], v = part.corner[2] - part.corner[0], w = at - part.corner[0];
-  const float area = cross(u, v), y = cross(w, v) / area, z = cross(u, w) / area;
-  return {1.0F - y - z, y, z};
+  const auto cross = [](const glm::dvec2& u, const glm::dvec2& v) { return u.x * v.y - u.y * v.x; };
+  const glm::dvec2 first(part.corner[0]), u = glm::dvec2(part.corner[1]) - first,
+                                          v = glm::dvec2(part.corner[2]) - first, w = glm::dvec2(at) - first;
+  const double area = cross(u, v);
+  if (area == 0.0) return glm::vec3(std::numeric_limits<float>::lowest());
+  const double y = cross(w, v) / area, z = cross(u, w) / area;
+  return {1.0 - y - z, y, z};
 }
 
 /// Places outside by rounding count as on the edge.
 glm::vec3 clamped(const glm::vec3& weights) {
   const glm::vec3 inside = glm::max(weights, glm::vec3(0.0F));
-  return inside / (inside.x + inside.y + inside.z);
+  const float sum = inside.x + inside.y + inside.z;
+  return sum > 0.0F ? inside / sum : glm::vec3(1.0F / 3.0F);
 }
 
 float least(const glm::vec3& weights) { return std::min({weights.x, weights.y, weights.z}); }

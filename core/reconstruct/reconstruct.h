@@ -40,7 +40,7 @@ struct Reconstruction {
 
 /// Cuts an adaptive `display` until the estimate of its error is small enough or a limit is reached. Nothing is
 /// gathered twice. Parallel; deterministic; throws `Cancelled`.
-Reconstruction reconstruct(DisplayMesh& display, const Gatherer& gatherer, Fit fit, const RefineOptions& adapt,
+Reconstruction reconstruct(DisplayMesh& display, const Gatherer& gatherer, Fit how, const RefineOptions& adapt,
                            const Progress& progress);
 
 }  // namespace radiosity

@@ -67,7 +67,7 @@ TEST(HelpText, DescribesEveryOption) {
 TEST(HelpText, StatesTheDefaultsOfTheLibrary) {
   const Options library;
   const std::vector<std::pair<std::string, std::string>> expected = {
-      {"--refine", "adaptive"},    {"--max-error", fmt::format("{}", library.max_error)},
+      {"--refine", "adaptive"},   {"--max-error", fmt::format("{}", library.max_error)},
       {"--max-vertices", "auto"}, {"--error-space", "display"},
       {"--patch-size", "auto"},   {"--subdivide", "none"},
       {"--sky", "none"},          {"--sky-rotation", fmt::format("{}", library.sky_rotation_degrees)},

@@ -55,6 +55,23 @@ TEST(InheritSamples, KeepsEverySampleWhereItIs) {
   }
 }
 
+TEST(InheritSamples, PutsNothingIntoAPartWithoutArea) {
+  // Cut so close to a corner that its place in the triangle rounds to the corner.
+  RefinedMesh mesh;
+  mesh.elements = {{0, 1, 3}, {3, 1, 2}};
+  mesh.triangle_of_element = {0, 0};
+  mesh.part_of_element = {{{{0.0F, 0.0F}, {1.0F, 0.0F}, {0.0F, 0.0F}}}, {{{0.0F, 0.0F}, {1.0F, 0.0F}, {0.0F, 1.0F}}}};
+  Samples before;
+  before.first_of_element = {0, 2};
+  before.at = {{0.25F, 0.25F}, {0.0F, 0.0F}};
+  before.weights = {{0.5F, 0.25F, 0.25F}, {1.0F, 0.0F, 0.0F}};
+  before.irradiance = {Rgb(1.0F), Rgb(2.0F)};
+  before.buried = {0};
+  const Samples after = inherit_samples(before, mesh, std::vector<std::uint32_t>{0, 0});
+  EXPECT_EQ(after.first_of_element, (std::vector<std::uint32_t>{0, 0, 2}));
+  EXPECT_EQ(after.weights, before.weights);
+}
+
 TEST(InheritSamples, TopsUpOnlyElementsThatWereCut) {
   const Cut c;
   const Samples after =
