@@ -120,12 +120,12 @@ Misfit measure_misfit(const Scene& scene, const RefinedMesh& mesh, const Samples
 }
 
 double check_error(const RefinedMesh& mesh, const Samples& samples, std::span<const Rgb> irradiance,
-                   const Misfit& misfit, const Gatherer& gatherer, std::size_t place_count,
-                   const MisfitOptions& options, const Progress& progress) {
+                   const Misfit& misfit, const Gatherer& gatherer, const MisfitOptions& options,
+                   const Progress& progress) {
   // Two looks from each place.
   const ShownLight shown = shown_light(gatherer.scene, mesh);
   const Rgb white = white_of(mesh, samples, shown, options.exposure);
-  const std::vector<Check> checks = places_to_check(mesh, samples, misfit, place_count);
+  const std::vector<Check> checks = places_to_check(mesh, samples, misfit, options.places_to_check);
   std::vector<double> product(checks.size(), 0.0), weight(checks.size(), 0.0);
   parallel_in_chunks(checks.size(), 256, progress, "check", [&](std::size_t k) {
     const std::uint32_t e = checks[k].element;

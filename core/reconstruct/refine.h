@@ -27,6 +27,7 @@ enum class ErrorSpace : std::uint8_t {
 struct MisfitOptions {
   ErrorSpace space = ErrorSpace::kDisplay;
   float exposure = 0.0F;  ///< k, m2/cd, at which light is cut off at white; 0 chooses as automatic_exposure() does
+  std::size_t places_to_check = 400;  ///< for check_error()
 };
 
 /// Luminance in cd/m2. What is white at all corners of an element hides its error.
@@ -40,11 +41,11 @@ struct Misfit {
 Misfit measure_misfit(const Scene& scene, const RefinedMesh& mesh, const Samples& samples,
                       std::span<const Rgb> irradiance, const MisfitOptions& options);
 
-/// How wrong the whole is, by `place_count` places, more of them where `misfit` is larger. Parallel; throws
+/// How wrong the whole is, by so many places, more of them where `misfit` is larger. Parallel; throws
 /// `Cancelled`.
 double check_error(const RefinedMesh& mesh, const Samples& samples, std::span<const Rgb> irradiance,
-                   const Misfit& misfit, const Gatherer& gatherer, std::size_t place_count,
-                   const MisfitOptions& options, const Progress& progress);
+                   const Misfit& misfit, const Gatherer& gatherer, const MisfitOptions& options,
+                   const Progress& progress);
 
 /// What to cut next: of those elements that `may_be_cut` [element_count], worst first, as many as have half of all
 /// their misfit, but an eighth of all elements at most and a 64th at least.

@@ -126,7 +126,7 @@ glm::vec3 corner_weights(std::uint32_t number) {
   return {1.0F - at.x - at.y, at.x, at.y};
 }
 
-Gathered gather_sample(const RefinedMesh& mesh, const Gatherer& gatherer, std::uint32_t e, std::uint32_t sample,
+Gathered gather_sample(const RefinedMesh& mesh, const Gatherer& gatherer, std::uint32_t e, std::uint32_t number,
                        const glm::vec3& weights) {
   const glm::uvec3& element = mesh.elements[e];
   const glm::vec3 a = mesh.positions[element.x], b = mesh.positions[element.y], c = mesh.positions[element.z];
@@ -134,11 +134,11 @@ Gathered gather_sample(const RefinedMesh& mesh, const Gatherer& gatherer, std::u
   SurfacePoint point{weights.x * a + weights.y * b + weights.z * c, shading_normal(mesh, element, weights, flat)};
   const auto& part = mesh.part_of_element[e].corner;
   const Barycentrics at = weights.x * part[0] + weights.y * part[1] + weights.z * part[2];
-  Gathered gathered = gatherer.on_front(mesh.triangle_of_element[e], at, point, sample);
+  Gathered gathered = gatherer.on_front(mesh.triangle_of_element[e], at, point, number);
   const std::uint32_t surface = gatherer.scene.surface_of_triangle[mesh.triangle_of_element[e]];
   if (gathered.back_share > kBuriedShare && gatherer.scene.surfaces[surface].two_sided) {
     point.normal = -point.normal;
-    gathered = gatherer.at(point, sample);
+    gathered = gatherer.at(point, number);
   }
   return gathered;
 }

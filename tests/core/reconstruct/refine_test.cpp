@@ -142,7 +142,7 @@ struct Checked {
   Misfit misfit = measure_misfit(gathering.prepared.scene, mesh, samples, light, {});
 
   double error(std::size_t place_count) const {
-    return check_error(mesh, samples, light, misfit, gathering.gatherer, place_count, {}, {});
+    return check_error(mesh, samples, light, misfit, gathering.gatherer, {.places_to_check = place_count}, {});
   }
 };
 
@@ -160,7 +160,7 @@ TEST(Refine, FindsNoErrorInConstantLight) {
   const Samples samples = gathering.samples({});
   const std::vector<Rgb> light = fit_vertices(mesh, samples, {});
   const Misfit misfit = measure_misfit(gathering.prepared.scene, mesh, samples, light, {});
-  EXPECT_LT(check_error(mesh, samples, light, misfit, gathering.gatherer, 50, {}, {}), 1e-5);
+  EXPECT_LT(check_error(mesh, samples, light, misfit, gathering.gatherer, {.places_to_check = 50}, {}), 1e-5);
 }
 
 }  // namespace
