@@ -26,9 +26,9 @@ std::size_t elements_at_next_check(std::size_t element_count, double error, doub
                                   std::clamp(std::pow(error / wanted, 1.5), 1.1, 2.0));
 }
 
-/// Part of the error that is allowed goes to the transport of light: about 1 % in a Cornell box.
+/// Part of the error that is allowed goes to the transport of light, which no sample can see.
 double error_left_to_mesh(double max_error) {
-  const double of_transport = std::min(0.01, 0.5 * max_error);
+  const double of_transport = std::min(0.005, 0.5 * max_error);
   return std::sqrt(max_error * max_error - of_transport * of_transport);
 }
 
