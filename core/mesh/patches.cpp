@@ -149,9 +149,8 @@ Grouping group(const RayScene& rays, std::span<const float> areas, const Patches
 
 /// Tells the tiles their patches.
 void assign(const Grouping& grouping, Patches& patches) {
-  patches.tiling = grouping.tiling;
-  patches.patch_of_tile.assign(grouping.tiling.first_child.size(), kNothing);
-  patches.back_patch_of_tile.assign(grouping.tiling.first_child.size(), kNothing);
+  patches.patch_of_tile.assign(patches.tiling.first_child.size(), kNothing);
+  patches.back_patch_of_tile.assign(patches.tiling.first_child.size(), kNothing);
   const auto set = [&](const TileSide& side, std::uint32_t patch) {
     std::vector<std::uint32_t>& of_tile = side.back ? patches.back_patch_of_tile : patches.patch_of_tile;
     of_tile[grouping.surveys[side.survey].tile.tile] = patch;
@@ -187,6 +186,7 @@ Grouping group_reached(const RayScene& rays, std::span<const float> areas, std::
   patches.size = choose_size(rays.scene(), areas, max_patches);
   for (bool first = true;; first = false) {
     Grouping grouping = group(rays, areas, patches, progress);
+    patches.tiling = std::move(grouping.tiling);
     assign(grouping, patches);
     set_unreached_apart(find_reached(rays, patches, grouping.patches.count, progress), grouping);
     assign(grouping, patches);

@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "core/parallel.h"
-#include "core/reconstruct/shown_light.h"
 
 namespace radiosity {
 namespace {
@@ -32,17 +31,16 @@ struct ElementView {
   }
 };
 
-ElementView view_of(std::uint32_t e, const RefinedMesh& mesh, std::span<const Rgb> irradiance, const ShownLight& shown,
-                    const Rgb& white) {
+ElementView view_of(std::uint32_t e, const RefinedMesh& mesh, std::span<const Rgb> irradiance, const Misfit& misfit) {
   ElementView view;
   Rgb least = view.most;
   for (int k = 0; k < 3; ++k) {
-    const Rgb light = shown.under(e, irradiance[mesh.elements[e][k]]);
-    view.at_corners[k] = luminance_of(glm::min(light, white));
+    const Rgb light = misfit.shown.under(e, irradiance[mesh.elements[e][k]]);
+    view.at_corners[k] = luminance_of(glm::min(light, misfit.white));
     least = glm::min(least, light);
   }
   for (int band = 0; band < 3; ++band) {
-    if (least[band] >= white[band]) view.most[band] = white[band];
+    if (least[band] >= misfit.white[band]) view.most[band] = misfit.white[band];
   }
   return view;
 }
@@ -83,20 +81,22 @@ std::vector<Check> places_to_check(const RefinedMesh& mesh, const Samples& sampl
 Misfit measure_misfit(const Scene& scene, const RefinedMesh& mesh, const Samples& samples,
                       std::span<const Rgb> irradiance, const MisfitOptions& options) {
   // Each element by itself.
-  const ShownLight shown = shown_light(scene, mesh);
-  const Rgb white = white_of(mesh, samples, shown, options.exposure);
   const std::size_t element_count = mesh.elements.size();
   std::vector<double> value(element_count, 0.0), area(element_count, 0.0);
-  Misfit misfit{std::vector<double>(element_count, 0.0), std::vector<double>(element_count, 0.0)};
+  Misfit misfit;
+  misfit.squared.assign(element_count, 0.0);
+  misfit.of_element.assign(element_count, 0.0);
+  misfit.shown = shown_light(scene, mesh);
+  misfit.white = white_of(mesh, samples, misfit.shown, options.exposure);
   parallel_in_chunks(element_count, element_count, {}, "", [&](std::size_t element) {
     const auto e = static_cast<std::uint32_t>(element);
     if (!has_samples(samples, e)) return;
-    const ElementView view = view_of(e, mesh, irradiance, shown, white);
+    const ElementView view = view_of(e, mesh, irradiance, misfit);
     const std::uint32_t first = samples.first_of_element[e], last = samples.first_of_element[e + 1];
     const double count = last - first;
     area[e] = double{element_area(mesh, e)};
     for (std::uint32_t s = first; s < last; ++s) {
-      const Rgb light = shown.under(e, samples.irradiance[s]);
+      const Rgb light = misfit.shown.under(e, samples.irradiance[s]);
       const double residual = view.residual(samples.weights[s], light);
       misfit.squared[e] += area[e] * residual * residual / count;
       value[e] += double{luminance_of(glm::min(light, view.most))} / count;
@@ -123,20 +123,18 @@ double check_error(const RefinedMesh& mesh, const Samples& samples, std::span<co
                    const Misfit& misfit, const Gatherer& gatherer, const MisfitOptions& options,
                    const Progress& progress) {
   // Two looks from each place.
-  const ShownLight shown = shown_light(gatherer.scene, mesh);
-  const Rgb white = white_of(mesh, samples, shown, options.exposure);
   const std::vector<Check> checks = places_to_check(mesh, samples, misfit, options.places_to_check);
   std::vector<double> product(checks.size(), 0.0), weight(checks.size(), 0.0);
   parallel_in_chunks(checks.size(), 256, progress, "check", [&](std::size_t k) {
     const std::uint32_t e = checks[k].element;
-    const ElementView view = view_of(e, mesh, irradiance, shown, white);
+    const ElementView view = view_of(e, mesh, irradiance, misfit);
     const auto number = samples.taken + 2 * static_cast<std::uint32_t>(k);
     const glm::vec3 weights = corner_weights(number);
     std::array<double, 2> residual{};
     for (std::uint32_t look = 0; look < 2; ++look) {
       const Gathered gathered = gather_sample(mesh, gatherer, e, number + look, weights);
       if (gathered.back_share > kBuriedShare) return;
-      residual[look] = view.residual(weights, shown.under(e, gathered.irradiance));
+      residual[look] = view.residual(weights, misfit.shown.under(e, gathered.irradiance));
     }
     product[k] = checks[k].weight * residual[0] * residual[1];
     weight[k] = checks[k].weight;

@@ -14,6 +14,7 @@
 
 #include "core/mesh/refined_mesh.h"
 #include "core/reconstruct/samples.h"
+#include "core/reconstruct/shown_light.h"
 #include "core/scene.h"
 
 namespace radiosity {
@@ -35,14 +36,16 @@ struct Misfit {
   std::vector<double> squared;     ///< area x mean squared residual of the samples, [element_count]
   std::vector<double> of_element;  ///< the same in the space asked for
   double mean = 0.0;               ///< over the surface that has samples
+  ShownLight shown;                ///< what elements are made of
+  Rgb white{0.0F};                 ///< what is brighter shows as this, cd/m2
 };
 
 /// The misfit of `irradiance` (at the vertices, lx). Parallel; deterministic.
 Misfit measure_misfit(const Scene& scene, const RefinedMesh& mesh, const Samples& samples,
                       std::span<const Rgb> irradiance, const MisfitOptions& options);
 
-/// How wrong the whole is, by so many places, more of them where `misfit` is larger. Parallel; throws
-/// `Cancelled`.
+/// How wrong the whole is, by so many places, more of them where `misfit`, that of the same mesh and light, is larger.
+/// Parallel; throws `Cancelled`.
 double check_error(const RefinedMesh& mesh, const Samples& samples, std::span<const Rgb> irradiance,
                    const Misfit& misfit, const Gatherer& gatherer, const MisfitOptions& options,
                    const Progress& progress);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
 #include <set>
@@ -133,6 +134,18 @@ Scene scene_of(std::vector<glm::vec3> positions, std::vector<glm::uvec3> triangl
   scene.triangles = std::move(triangles);
   scene.surface_of_triangle.assign(scene.triangles.size(), 0);
   scene.surfaces = {Surface{}};
+  return scene;
+}
+
+Scene fan(std::uint32_t count) {
+  Scene scene = scene_of({{0, 0, 0}}, {});
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const float angle = 6.2831853F * static_cast<float>(i) / static_cast<float>(count);
+    scene.positions.emplace_back(std::cos(angle), std::sin(angle), 0.0F);
+    scene.triangles.emplace_back(0, 1 + i, 1 + (i + 1) % count);
+  }
+  scene.normals.assign(scene.positions.size(), glm::vec3(0.0F));
+  scene.surface_of_triangle.assign(count, 0);
   return scene;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/mesh/refined_mesh.h"
@@ -11,6 +12,9 @@ namespace radiosity::test {
 
 /// Triangles of one grey surface, shaded flat.
 Scene scene_of(std::vector<glm::vec3> positions, std::vector<glm::uvec3> triangles);
+
+/// `count` triangles around the origin, in the plane z = 0.
+Scene fan(std::uint32_t count);
 
 std::size_t t_vertex_count(const RefinedMesh& mesh);
 

@@ -20,23 +20,12 @@ namespace radiosity {
 namespace {
 
 using test::expect_conforming;
+using test::fan;
 using test::middle;
 using test::scene_of;
 using test::t_vertex_count;
 
 const std::vector<glm::vec3> kCorners = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-
-Scene fan(std::uint32_t count) {
-  Scene scene = scene_of({{0, 0, 0}}, {});
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const float angle = 6.2831853F * static_cast<float>(i) / static_cast<float>(count);
-    scene.positions.emplace_back(std::cos(angle), std::sin(angle), 0.0F);
-    scene.triangles.emplace_back(0, 1 + i, 1 + (i + 1) % count);
-  }
-  scene.normals.assign(scene.positions.size(), glm::vec3(0.0F));
-  scene.surface_of_triangle.assign(count, 0);
-  return scene;
-}
 
 /// Scenes of all kinds.
 std::map<std::string, Scene> sound_and_faulty() {

@@ -223,14 +223,7 @@ TEST(SubdivideUniform, TrianglesBackToBackAreCutAlike) {
 TEST(SubdivideUniform, AFanOfAnySizeConforms) {
   // More triangles at one vertex than are joined there.
   constexpr std::uint32_t kCount = 600;
-  Scene scene = scene_of({{0, 0, 0}}, {});
-  for (std::uint32_t i = 0; i < kCount; ++i) {
-    const float angle = 6.2831853F * static_cast<float>(i) / static_cast<float>(kCount);
-    scene.positions.emplace_back(std::cos(angle), std::sin(angle), 0.0F);
-    scene.triangles.emplace_back(0, 1 + i, 1 + (i + 1) % kCount);
-  }
-  scene.normals.assign(scene.positions.size(), glm::vec3(0.0F));
-  scene.surface_of_triangle.assign(kCount, 0);
+  const Scene scene = test::fan(kCount);
   const RefinedMesh mesh = cut_to_levels(scene, std::vector<std::int8_t>(kCount, 1)).mesh;
   EXPECT_EQ(mesh.elements.size(), 4U * kCount);
   EXPECT_EQ(mesh.cuts.size(), 2U * kCount) << "one for each edge";
