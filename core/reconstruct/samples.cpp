@@ -44,7 +44,7 @@ std::vector<std::uint32_t> allot(const RefinedMesh& mesh, const SampleOptions& o
     double wanted = areas[e] > 0.0F
                         ? std::max(options.per_element * double{areas[e]} / mean, double{areas[e]} / share_of_one)
                         : 0.0;
-    if (every_element && areas[e] > 0.0F) wanted = std::max(wanted, static_cast<double>(options.per_element));
+    if (every_element && areas[e] > 0.0F) wanted = std::max(wanted, 1.0);
     wanted = std::min(wanted, kMaxSamplesPerElement);
     due += wanted;
     const auto here = static_cast<std::uint32_t>(due);

@@ -14,7 +14,7 @@
 namespace radiosity {
 
 struct SampleOptions {
-  int per_element = 3;           ///< in an element of ordinary size, >= 1
+  int per_element = 3;           ///< in an element of ordinary size, >= 1; in a smaller one fewer, but one
   std::size_t at_least = 6'000;  ///< samples in all, >= 1: meshes of few elements get more in each
   std::size_t max_ordinary =
       300'000;  ///< elements of ordinary size at most: in finer meshes samples are spread by area
@@ -41,8 +41,8 @@ glm::vec3 corner_weights(std::uint32_t number);
 Gathered gather_sample(const RefinedMesh& mesh, const Gatherer& gatherer, std::uint32_t e, std::uint32_t number,
                        const glm::vec3& weights);
 
-/// Gathers at samples inside each element: `per_element`, more where it is larger than others, fewer where a mesh is
-/// finer than its light. A surface that is lit on both sides shows its front; its back where the front is buried.
+/// Gathers at samples inside each element: `per_element`, more where it is larger than others, fewer where it is smaller
+/// or a mesh is finer than its light. A surface that is lit on both sides shows its front; its back where the front is buried.
 /// Parallel; throws `Cancelled`.
 Samples gather_samples(const RefinedMesh& mesh, const Gatherer& gatherer, const SampleOptions& options,
                        const Progress& progress);
