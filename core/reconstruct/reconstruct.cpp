@@ -62,22 +62,23 @@ Reconstruction reconstruct(DisplayMesh& display, const Gatherer& gatherer, Fit h
   const Progress only_cancelled{nullptr, progress.cancelled};
   const MisfitOptions as_seen{adapt.space, adapt.exposure};
   const double max_error = error_left_to_mesh(adapt.max_error);
+  ErrorEstimate estimate;
   for (std::size_t check_at = 0;; ++light.rounds) {
     // How good it is, and whether to go on.
     const Misfit misfit = measure_misfit(gatherer.scene, mesh, light.samples, light.irradiance, as_seen);
     const std::vector<std::uint32_t> to_cut = next_to_cut(display, misfit);
     const bool is_checked = to_cut.empty() || mesh.elements.size() >= check_at;
     if (is_checked) {
-      light.estimated_error =
-          check_error(mesh, light.samples, light.irradiance, misfit, gatherer, as_seen, only_cancelled);
-      check_at = elements_at_next_check(mesh.elements.size(), light.estimated_error, max_error);
+      estimate = check_error(mesh, light.samples, light.irradiance, misfit, gatherer, as_seen, only_cancelled);
+      light.estimated_error = estimate.error;
+      check_at = elements_at_next_check(mesh.elements.size(), std::max(estimate.error, estimate.noise), max_error);
     }
     if (!display.bisector) return light;
-    light.end = end_of(display, is_checked && light.estimated_error <= max_error, to_cut.empty());
+    light.end = end_of(display, is_checked && estimate.is_surely_below(max_error), to_cut.empty());
     if (light.end != RefineEnd::kNotAdaptive) return light;
 
     // Cut, sample, fit.
-    progress.update("refine", std::min(1.0, max_error / light.estimated_error));
+    progress.update("refine", std::min(1.0, max_error / std::max({max_error, estimate.error, estimate.noise})));
     const std::vector<std::uint32_t> origin_of_element = display.bisector->bisect(to_cut);
     append_cuts(mesh, light.irradiance);
     light.samples = samples_after_cuts(light.samples, mesh, origin_of_element, gatherer, {}, only_cancelled);

@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numeric>
 
 #include "core/parallel.h"
 
@@ -119,9 +120,9 @@ Misfit measure_misfit(const Scene& scene, const RefinedMesh& mesh, const Samples
   return misfit;
 }
 
-double check_error(const RefinedMesh& mesh, const Samples& samples, std::span<const Rgb> irradiance,
-                   const Misfit& misfit, const Gatherer& gatherer, const MisfitOptions& options,
-                   const Progress& progress) {
+ErrorEstimate check_error(const RefinedMesh& mesh, const Samples& samples, std::span<const Rgb> irradiance,
+                          const Misfit& misfit, const Gatherer& gatherer, const MisfitOptions& options,
+                          const Progress& progress) {
   // Two looks from each place.
   const std::vector<Check> checks = places_to_check(mesh, samples, misfit, options.places_to_check);
   std::vector<double> product(checks.size(), 0.0), weight(checks.size(), 0.0);
@@ -140,12 +141,16 @@ double check_error(const RefinedMesh& mesh, const Samples& samples, std::span<co
     weight[k] = checks[k].weight;
   });
 
-  double squared = 0.0, total = 0.0;
+  // The mean of the products, and its standard error.
+  const double total = std::accumulate(weight.begin(), weight.end(), 0.0);
+  if (!(total > 0.0 && misfit.mean > 0.0)) return {};
+  const double squared = std::accumulate(product.begin(), product.end(), 0.0) / total;
+  double scatter = 0.0;
   for (std::size_t k = 0; k < checks.size(); ++k) {
-    squared += product[k];
-    total += weight[k];
+    const double off = product[k] - weight[k] * squared;
+    scatter += off * off;
   }
-  return total > 0.0 && misfit.mean > 0.0 ? std::sqrt(std::max(0.0, squared / total)) / misfit.mean : 0.0;
+  return {std::sqrt(std::max(0.0, squared)) / misfit.mean, std::sqrt(std::sqrt(scatter) / total) / misfit.mean};
 }
 
 std::vector<std::uint32_t> worst_elements(const Misfit& misfit, std::span<const std::uint8_t> may_be_cut) {

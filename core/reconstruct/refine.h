@@ -44,11 +44,19 @@ struct Misfit {
 Misfit measure_misfit(const Scene& scene, const RefinedMesh& mesh, const Samples& samples,
                       std::span<const Rgb> irradiance, const MisfitOptions& options);
 
+/// Root mean square of a difference, over mean luminance.
+struct ErrorEstimate {
+  double error = 0.0;
+  double noise = 0.0;  ///< an error that the places looked at could not tell from none
+
+  bool is_surely_below(double wanted) const { return error <= wanted && noise <= wanted; }
+};
+
 /// How wrong the whole is, by so many places, more of them where `misfit`, that of the same mesh and light, is larger.
 /// Parallel; throws `Cancelled`.
-double check_error(const RefinedMesh& mesh, const Samples& samples, std::span<const Rgb> irradiance,
-                   const Misfit& misfit, const Gatherer& gatherer, const MisfitOptions& options,
-                   const Progress& progress);
+ErrorEstimate check_error(const RefinedMesh& mesh, const Samples& samples, std::span<const Rgb> irradiance,
+                          const Misfit& misfit, const Gatherer& gatherer, const MisfitOptions& options,
+                          const Progress& progress);
 
 /// What to cut next: of those elements that `may_be_cut` [element_count], worst first, as many as have half of all
 /// their misfit, but an eighth of all elements at most and a 64th at least.

@@ -141,15 +141,27 @@ struct Checked {
   std::vector<Rgb> light = fit_vertices(mesh, samples, {});
   Misfit misfit = measure_misfit(gathering.prepared.scene, mesh, samples, light, {});
 
-  double error(std::size_t place_count) const {
+  ErrorEstimate estimate(std::size_t place_count) const {
     return check_error(mesh, samples, light, misfit, gathering.gatherer, {.places_to_check = place_count}, {});
   }
 };
 
 TEST(Refine, ChecksTheErrorWithFewPlacesAsWithMany) {
   const Checked checked;
-  EXPECT_GT(checked.error(5000), 0.05) << "two triangles cannot show a shadow";
-  for (const std::size_t few : {100U, 200U, 400U}) EXPECT_NEAR(checked.error(few) / checked.error(5000), 1.0, 0.25);
+  EXPECT_GT(checked.estimate(5000).error, 0.05) << "two triangles cannot show a shadow";
+  for (const std::size_t few : {100U, 200U, 400U}) {
+    EXPECT_NEAR(checked.estimate(few).error / checked.estimate(5000).error, 1.0, 0.25);
+  }
+}
+
+// A check whose noise came out negative once ended a refinement that was to leave next to no error after 413 vertices.
+TEST(Refine, IsNotSureOfWhatIsBelowItsNoise) {
+  const Checked checked;
+  const ErrorEstimate few = checked.estimate(50), many = checked.estimate(5000);
+  EXPECT_NEAR(few.noise / many.noise, std::pow(100.0, 0.25), 1.0);
+  EXPECT_TRUE(many.is_surely_below(1.1 * many.error));
+  EXPECT_FALSE(many.is_surely_below(0.9 * many.error));
+  EXPECT_FALSE((ErrorEstimate{.error = 0.0, .noise = many.noise}.is_surely_below(0.5 * many.noise)));
 }
 
 TEST(Refine, FindsNoErrorInConstantLight) {
@@ -160,7 +172,7 @@ TEST(Refine, FindsNoErrorInConstantLight) {
   const Samples samples = gathering.samples({});
   const std::vector<Rgb> light = fit_vertices(mesh, samples, {});
   const Misfit misfit = measure_misfit(gathering.prepared.scene, mesh, samples, light, {});
-  EXPECT_LT(check_error(mesh, samples, light, misfit, gathering.gatherer, {.places_to_check = 50}, {}), 1e-5);
+  EXPECT_LT(check_error(mesh, samples, light, misfit, gathering.gatherer, {.places_to_check = 50}, {}).error, 1e-5);
 }
 
 }  // namespace
