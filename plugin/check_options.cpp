@@ -54,6 +54,10 @@ Result<Done> check_options(const Options& options) {
   if (options.exposure && !(is_finite_and_at_least(*options.exposure, 0.0) && *options.exposure > 0.0)) {
     return refuse("--exposure", "must be above 0");
   }
+  if (options.draco_bits != 0 && (options.draco_bits < 8 || options.draco_bits > 24)) {
+    return refuse("--draco", "must lie between 8 and 24");
+  }
+  if (options.draco_bits != 0 && options.meshopt) return refuse("--meshopt", "excludes --draco");
   return Done{};
 }
 

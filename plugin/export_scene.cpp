@@ -129,6 +129,7 @@ ExportReport export_scene(Document& document, BufferBuilder& buffer, const Impor
   const float k = exposure(colors, options, report);
 
   // Geometry and colours.
+  const ColorType type = options.color_type.value_or(options.meshopt ? ColorType::kU16 : ColorType::kFloat);
   std::vector<BakedPrimitive> baked;
   const std::vector<std::size_t> meshes = separate_meshes(document.json, scene.instances);
   for (std::size_t i = 0; i < refined.size(); ++i) {
@@ -139,7 +140,7 @@ ExportReport export_scene(Document& document, BufferBuilder& buffer, const Impor
     Json primitive = primitive_json(document.json, baked.back());
     drop_variants(primitive, instance, warnings);
     if (refined[i].changed) export_geometry(document, buffer, instance, refined[i], primitive);
-    primitive["attributes"]["COLOR_0"] = export_color_accessor(document, buffer, colors[i], k, options.color_type);
+    primitive["attributes"]["COLOR_0"] = export_color_accessor(document, buffer, colors[i], k, type);
     primitive_json(document.json, baked.back()) = std::move(primitive);
   }
 

@@ -8,6 +8,7 @@
 
 #include "core/bake.h"
 #include "plugin/check_options.h"
+#include "plugin/compress_geometry.h"
 #include "plugin/document.h"
 #include "plugin/export_scene.h"
 #include "plugin/firewall.h"
@@ -88,7 +89,7 @@ double patch_size_of(const Options& options, const ImportedScene& scene) {
                                                                 : radiosity::coarse_patch_size(scene.scene));
 }
 
-/// Import, bake and export: patches `document`, new data goes into `added`.
+/// Import, bake, export and compress: patches `document`, new data goes into `added`.
 Result<Report> bake_document(Document& document, BufferBuilder& added, const Options& options,
                              const radiosity::Progress& progress) {
   // Import.
@@ -112,6 +113,7 @@ Result<Report> bake_document(Document& document, BufferBuilder& added, const Opt
   progress.update("export", 0.0);
   add_figures(export_scene(document, added, *scene, bake, options, report.warnings), report);
   progress.update("export", 1.0);
+  compress_geometry(document, added, options, report.warnings, progress);
   return report;
 }
 

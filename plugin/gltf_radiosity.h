@@ -67,14 +67,16 @@ struct Options {
   std::uint64_t max_memory = 0;
   int threads = 0;  ///< 0: every core
   // Output
-  std::optional<double> exposure;  ///< k, m2/cd; none chooses automatically
-  ColorType color_type = ColorType::kFloat;
+  std::optional<double> exposure;       ///< k, m2/cd; none chooses automatically
+  std::optional<ColorType> color_type;  ///< none: kU16 with `meshopt`, kFloat otherwise
+  int draco_bits = 0;                   ///< colours within KHR_draco_mesh_compression, [8, 24]; 0 does not compress
+  bool meshopt = false;                 ///< EXT_meshopt_compression; not together with Draco
 };
 
 /// Called from one thread at a time.
 struct Callbacks {
   /// `phase` is one of "read", "import", "subdivide", "patches", "direct", "sky", "solve", "gather", "fit", "refine",
-  /// "export", "write"; `done` in [0,1].
+  /// "export", "compress", "write"; `done` in [0,1].
   std::function<void(std::string_view phase, double done)> progress;
   /// Answer true to stop: the bake ends with ErrorCode::kCancelled within a second and writes nothing.
   std::function<bool()> cancelled;

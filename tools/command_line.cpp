@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "tools/help_text.h"
 #include "tools/option_values.h"
@@ -133,6 +136,24 @@ void add_transport_options(CLI::App& app, Options& options, std::optional<int>& 
   add_threads_option(app, options);
 }
 
+/// What --draco without a number stands for.
+constexpr const char* kColorBits = "16";
+
+void add_compression(CLI::App& app, Options& options) {
+  CLI::Option* const draco =
+      add(app,
+          {"--draco", "[BITS]", "off",
+           fmt::format(
+               "Compress the triangles with Draco (KHR_draco_mesh_compression), colours of floats to BITS, 8 to 24, "
+               "{} unless given; integers stay exact",
+               kColorBits)},
+          [&options](const std::string& text) { options.draco_bits = parse_integer(text, 8, 24); });
+  app.add_flag_callback(
+         "--meshopt", [&options] { options.meshopt = true; },
+         "Compress the triangles with meshoptimizer (EXT_meshopt_compression); excludes --draco (default: off)")
+      ->excludes(draco);
+}
+
 void add_output_options(CLI::App& app, CommandLine& line) {
   Options& options = line.options;
   app.option_defaults()->group("Output");
@@ -148,8 +169,11 @@ void add_output_options(CLI::App& app, CommandLine& line) {
         options.exposure = 1.0 / (1.2 * std::exp2(parse_number(text, {-30.0, 30.0})));
       })
       ->excludes(exposure);
-  add_choice(app, "--color-type", "How COLOR_0 is stored: float, or normalised integers of 16 or 8 bits",
-             options.color_type, kColorType);
+  add(app,
+      {"--color-type", names_of(kColorType), "float",
+       "How COLOR_0 is stored: float, or normalised integers of 16 or 8 bits. Unless given, u16 with --meshopt"},
+      [&options](const std::string& text) { options.color_type = parse_choice(text, kColorType); });
+  add_compression(app, options);
   add_json_option(app, line.json);
   add_progress_option(app, line.progress);
 }
@@ -198,11 +222,26 @@ void finish(Parser& parser) {
   if (line.json != "-") check_that_differs("--json", line.json, std::array{line.input, line.output});
 }
 
+/// Gives --draco its number where it has none: CLI11 would take the next argument for it, which may be a file.
+std::vector<const char*> with_color_bits(std::span<const char* const> arguments) {
+  std::vector<const char*> completed;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    completed.push_back(arguments[i]);
+    if (std::string_view(arguments[i]) != "--draco") continue;
+    const std::string_view next = i + 1 < arguments.size() ? arguments[i + 1] : "";
+    const bool is_number =
+        !next.empty() && std::all_of(next.begin(), next.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (!is_number) completed.push_back(kColorBits);
+  }
+  return completed;
+}
+
 }  // namespace
 
 std::variant<CommandLine, Ending> parse_command_line(std::span<const char* const> arguments) {
   Parser parser;
-  if (auto ending = parse_with(parser.app, arguments, [&parser] { finish(parser); })) return std::move(*ending);
+  const std::vector<const char*> completed = with_color_bits(arguments);
+  if (auto ending = parse_with(parser.app, completed, [&parser] { finish(parser); })) return std::move(*ending);
   return std::move(parser.line);
 }
 

@@ -56,11 +56,12 @@ std::vector<Command> commands() { return {{help_text(), "command-line.md"}, {ver
 TEST(HelpText, DescribesEveryOption) {
   const std::set<std::string> names = matches(help_text(), "\n  (?:-h,)?(--[a-z0-9-]+)");
   const std::set<std::string> expected = {
-      "--refine",     "--patch-size",   "--subdivide",  "--sky",          "--sun",        "--no-default-sky",
-      "--metals",     "--quality",      "--hemicube",   "--max-patches",  "--residual",   "--visibility",
-      "--solver",     "--fit",          "--max-memory", "--threads",      "--exposure",   "--ev100",
-      "--color-type", "--json",         "--progress",   "--light-units",  "--config",     "--version",
-      "--help",       "--sky-rotation", "--max-error",  "--max-vertices", "--error-space"};
+      "--refine",     "--patch-size",   "--subdivide",  "--sky",          "--sun",         "--no-default-sky",
+      "--metals",     "--quality",      "--hemicube",   "--max-patches",  "--residual",    "--visibility",
+      "--solver",     "--fit",          "--max-memory", "--threads",      "--exposure",    "--ev100",
+      "--color-type", "--json",         "--progress",   "--light-units",  "--config",      "--version",
+      "--help",       "--sky-rotation", "--max-error",  "--max-vertices", "--error-space", "--draco",
+      "--meshopt"};
   EXPECT_EQ(names, expected);
 }
 
@@ -80,7 +81,8 @@ TEST(HelpText, StatesTheDefaultsOfTheLibrary) {
       {"--threads", "0"},         {"--exposure", "auto"},
       {"--ev100", "none"},        {"--color-type", "float"},
       {"--json", "none"},         {"--progress", "auto"},
-      {"--config", "none"},
+      {"--config", "none"},       {"--draco", "off"},
+      {"--meshopt", "off"},
   };
   for (const auto& [option, preset] : expected) {
     const std::string description = description_of(option);
