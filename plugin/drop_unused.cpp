@@ -83,6 +83,21 @@ void visit_view_numbers(Json& root, const Visit& visit) {
   });
 }
 
+/// Calls `visit` for every number of an image in the tree.
+void visit_image_numbers(Json& root, const Visit& visit) {
+  visit_members(root, "textures", [&](Json& texture) {
+    visit_member(texture, "source", visit);
+    visit_members(texture, "extensions", [&](Json& extension) { visit_member(extension, "source", visit); });
+  });
+  if (Json* lights = known_extension(root, "EXT_lights_image_based")) {
+    visit_members(*lights, "lights", [&](Json& light) {
+      visit_members(light, "specularImages", [&](Json& level) {
+        for (Json& image : level) visit(image);
+      });
+    });
+  }
+}
+
 void collect_numbers(const Json& value, std::vector<std::size_t>& numbers) {
   if (const auto number = whole_number(value)) numbers.push_back(*number);
   if (!value.is_structured()) return;
@@ -102,39 +117,47 @@ void collect_unknown_numbers(const Json& value, std::vector<std::size_t>& number
   }
 }
 
-/// Removes the elements of root[array] that are not `used`, or, with `numbers_stay`, makes stubs of them.
-/// `visit_numbers` finds what refers to them.
-void keep_used(Json& root, const char* array, const std::vector<std::size_t>& unknown, const Json& stub,
-               const std::function<void(Json&, const Visit&)>& visit_numbers) {
-  // Who is needed.
-  if (!root.contains(array)) return;
-  std::vector<std::uint8_t> used(root[array].size(), 0);
+using VisitNumbers = std::function<void(Json&, const Visit&)>;
+
+/// Which of `count` elements are needed: those that `visit_numbers` finds, and those that `unknown` numbers may mean.
+std::vector<std::uint8_t> used_elements(Json& root, std::size_t count, const std::vector<std::size_t>& unknown,
+                                        const VisitNumbers& visit_numbers) {
+  std::vector<std::uint8_t> used(count, 0);
   const auto mark = [&used](std::size_t number) {
     if (number < used.size()) used[number] = 1;
   };
   for (const std::size_t number : unknown) mark(number);
   visit_numbers(root, [&](Json& number) { mark(number.get<std::size_t>()); });
+  return used;
+}
 
-  // Stubs.
-  if (!unknown.empty()) {
-    for (std::size_t i = 0; i < used.size(); ++i) {
-      if (used[i] == 0) root[array][i] = stub;
-    }
-    return;
-  }
-
-  // New numbers.
-  std::vector<std::size_t> number_of(used.size(), 0);
+/// Keeps the elements of root[array] that `stays` says, [its size], and gives all that refers to them their new
+/// numbers.
+void renumber(Json& root, const char* array, const std::vector<std::uint8_t>& stays,
+              const VisitNumbers& visit_numbers) {
+  std::vector<std::size_t> number_of(stays.size(), 0);
   Json kept = Json::array();
-  for (std::size_t i = 0; i < used.size(); ++i) {
+  for (std::size_t i = 0; i < stays.size(); ++i) {
     number_of[i] = kept.size();
-    if (used[i] != 0) kept.push_back(std::move(root[array][i]));
+    if (stays[i] != 0) kept.push_back(std::move(root[array][i]));
   }
   visit_numbers(root, [&](Json& number) { number = number_of[number.get<std::size_t>()]; });
   if (kept.empty()) {
     root.erase(array);
   } else {
     root[array] = std::move(kept);
+  }
+}
+
+/// Removes the elements of root[array] that nothing refers to; where `unknown` numbers may mean some, makes stubs of
+/// the others.
+void keep_used(Json& root, const char* array, const std::vector<std::size_t>& unknown, const Json& stub,
+               const VisitNumbers& visit_numbers) {
+  if (!root.contains(array)) return;
+  const std::vector<std::uint8_t> used = used_elements(root, root[array].size(), unknown, visit_numbers);
+  if (unknown.empty()) return renumber(root, array, used, visit_numbers);
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i] == 0) root[array][i] = stub;
   }
 }
 
@@ -200,7 +223,38 @@ void compact_buffer(Document& document, std::size_t buffer) {
   }
 }
 
+void compact_buffers(Document& document) {
+  for (std::size_t i = 0; i < document.buffers.size(); ++i) {
+    if (!is_named_by_extension(document.json, i)) compact_buffer(document, i);
+  }
+}
+
 }  // namespace
+
+void drop_images(Document& document, const std::vector<std::size_t>& candidates) {
+  // Images.
+  Json& root = document.json;
+  std::vector<std::size_t> unknown;
+  collect_unknown_numbers(root, unknown);
+  if (candidates.empty() || !unknown.empty()) return;
+  std::vector<std::uint8_t> stays(root["images"].size(), 1);
+  for (const std::size_t candidate : candidates) stays[candidate] = 0;
+  visit_image_numbers(root, [&](Json& image) { stays[image.get<std::size_t>()] = 1; });
+  std::vector<std::size_t> views;
+  for (std::size_t i = 0; i < stays.size(); ++i) {
+    const Json& image = root["images"][i];
+    if (stays[i] == 0 && image.contains("bufferView")) views.push_back(image["bufferView"].get<std::size_t>());
+  }
+  renumber(root, "images", stays, visit_image_numbers);
+
+  // Their data.
+  if (views.empty()) return;
+  std::vector<std::uint8_t> view_stays(root["bufferViews"].size(), 1);
+  for (const std::size_t view : views) view_stays[view] = 0;
+  visit_view_numbers(root, [&](Json& view) { view_stays[view.get<std::size_t>()] = 1; });
+  renumber(root, "bufferViews", view_stays, visit_view_numbers);
+  compact_buffers(document);
+}
 
 void drop_unused_data(Document& document) {
   Json& root = document.json;
@@ -209,9 +263,7 @@ void drop_unused_data(Document& document) {
   keep_used(root, "accessors", unknown, {{"componentType", 5121}, {"count", 1}, {"type", "SCALAR"}},
             visit_accessor_numbers);
   keep_used(root, "bufferViews", unknown, {{"buffer", document.buffers.size()}, {"byteLength", 1}}, visit_view_numbers);
-  for (std::size_t i = 0; i < document.buffers.size(); ++i) {
-    if (!is_named_by_extension(root, i)) compact_buffer(document, i);
-  }
+  compact_buffers(document);
 }
 
 }  // namespace gltf_radiosity

@@ -10,7 +10,6 @@
 namespace gltf_radiosity {
 namespace {
 
-constexpr const char* kUnlit = "KHR_materials_unlit";
 constexpr const char* kVariants = "KHR_materials_variants";
 constexpr std::string_view kPointer = "/materials/";
 
@@ -38,15 +37,16 @@ void walk(const Json& value, const std::string& key, const Visit& visit) {
 
 }  // namespace
 
-Json unlit_material(const Json& source, const ImportedMaterial& material) {
+Json unlit_material(const Json& source, const ImportedMaterial& material, const radiosity::Rgb& factor) {
   Json unlit = source.is_object() ? source : Json::object();
 
-  // Base colour: COLOR_0 holds the factor.
+  // Base colour: COLOR_0 holds the source's factor.
   Json& pbr = unlit["pbrMetallicRoughness"];
   if (!pbr.is_object()) pbr = Json::object();
   pbr.erase("metallicRoughnessTexture");
   pbr.erase("baseColorFactor");
-  if (material.base_color_factor.a != 1.0F) pbr["baseColorFactor"] = {1.0, 1.0, 1.0, material.base_color_factor.a};
+  const glm::vec4 left(factor, material.base_color_factor.a);
+  if (left != glm::vec4(1.0F)) pbr["baseColorFactor"] = {left.r, left.g, left.b, left.a};
   pbr["metallicFactor"] = 0.0;
   pbr["roughnessFactor"] = 1.0;
 
@@ -58,26 +58,30 @@ Json unlit_material(const Json& source, const ImportedMaterial& material) {
       if (!shades(item.key())) extensions[item.key()] = item.value();
     }
   }
-  extensions[kUnlit] = Json::object();
+  extensions[kUnlitExtension] = Json::object();
   unlit["extensions"] = std::move(extensions);
   return unlit;
 }
 
-std::size_t export_unlit_material(Document& document, const ImportedMaterial& material,
-                                  const std::set<std::size_t>& referenced) {
-  declare_extension(document.json, kUnlit);
+Json dimmed_material(const Json& source, const ImportedMaterial& material, const radiosity::Rgb& factor) {
+  Json dimmed = source.is_object() ? source : Json::object();
+  const glm::vec4 left = material.base_color_factor * glm::vec4(factor, 1.0F);
+  dimmed["pbrMetallicRoughness"]["baseColorFactor"] = {left.r, left.g, left.b, left.a};
+  return dimmed;
+}
+
+std::size_t export_material(Document& document, const ImportedMaterial& material, Json baked,
+                            std::set<std::size_t>& referenced) {
   Json& materials = document.json["materials"];
-  if (!material.source) {
-    materials.push_back(unlit_material(Json::object(), material));
-    return materials.size() - 1;
+  const bool in_place = material.source && !referenced.contains(*material.source);
+  const std::size_t index = in_place ? *material.source : materials.size();
+  if (in_place) {
+    materials[index] = std::move(baked);
+  } else {
+    materials.push_back(std::move(baked));
   }
-  Json unlit = unlit_material(materials[*material.source], material);
-  if (referenced.contains(*material.source)) {
-    materials.push_back(std::move(unlit));
-    return materials.size() - 1;
-  }
-  materials[*material.source] = std::move(unlit);
-  return *material.source;
+  referenced.insert(index);
+  return index;
 }
 
 std::set<std::size_t> referenced_materials(const Json& root) {

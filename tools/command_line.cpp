@@ -33,6 +33,17 @@ constexpr Choices<SolverMethod, 2> kSolver{
 constexpr Choices<ColorType, 3> kColorType{
     {{"float", ColorType::kFloat}, {"u16", ColorType::kU16}, {"u8", ColorType::kU8}}};
 
+constexpr Choices<BakedLight, 3> kBakedLight{
+    {{"direct", BakedLight::kDirect}, {"indirect", BakedLight::kIndirect}, {"both", BakedLight::kBoth}}};
+constexpr Choices<Target, 2> kTarget{{{"unlit", Target::kUnlit}, {"keep", Target::kKeep}}};
+constexpr Choices<Engine, 7> kEngine{{{"three", Engine::kThree},
+                                      {"babylon", Engine::kBabylon},
+                                      {"godot", Engine::kGodot},
+                                      {"unity", Engine::kUnity},
+                                      {"unreal", Engine::kUnreal},
+                                      {"blender", Engine::kBlender},
+                                      {"any", Engine::kAny}}};
+
 /// The --hemicube that --quality sets unless it is given itself.
 const Choices<int, 3> kQuality{{{"draft", 8}, {"medium", Options{}.hemicube}, {"high", 32}}};
 
@@ -73,20 +84,31 @@ void add_mesh_options(CLI::App& app, Options& options) {
        "Longest edge of the baked mesh, in metres, that adaptive starts from; auto (or 0) chooses one that suits the "
        "scene"},
       [&options](const std::string& text) { options.patch_size = text == "auto" ? 0.0 : parse_number(text, {}); });
-  app.add_option_function<std::vector<std::string>>(
-         "--subdivide",
-         [&options](const std::vector<std::string>& texts) {
-           try {
-             for (const std::string& text : texts) options.subdivide.push_back(parse_subdivide(text));
-           } catch (const BadValue& bad) {
-             throw CLI::ValidationError("--subdivide", bad.what());
-           }
-         },
-         "Cut each triangle of the node NAME in four, LEVEL times (0 to 8), whatever --refine and "
-         "--patch-size say; may be repeated")
-      ->type_name("NAME=LEVEL")
-      ->default_str("none")
-      ->allow_extra_args(false);
+  add_repeated(app,
+               {"--subdivide", "NAME=LEVEL", "none",
+                "Cut each triangle of the node NAME in four, LEVEL times (0 to 8), whatever --refine and --patch-size "
+                "say; may be repeated"},
+               [&options](const std::string& text) { options.subdivide.push_back(parse_subdivide(text)); });
+}
+
+void add_node_options(CLI::App& app, Options& options) {
+  app.option_defaults()->group("Nodes: what receives light");
+  add_repeated(app,
+               {"--select", "NAME", "none",
+                "Only nodes of this name receive light, and all below them; * and ? stand for what you like; may be "
+                "repeated. The others still cast shadows and send light"},
+               [&options](const std::string& text) { options.select.push_back(text); });
+  add_repeated(app,
+               {"--exclude", "NAME", "none",
+                "Nodes of this name receive no light, nor does what is below them; may be repeated"},
+               [&options](const std::string& text) { options.exclude.push_back(text); });
+}
+
+void add_bake_option(CLI::App& app, Options& options) {
+  add_choice(app, "--bake",
+             "What is baked: light straight from lamps, lights and sky (direct), what surfaces reflect (indirect), or "
+             "both",
+             options.bake, kBakedLight);
 }
 
 void add_quality(CLI::App& app, std::optional<int>& quality) {
@@ -136,6 +158,39 @@ void add_transport_options(CLI::App& app, Options& options, std::optional<int>& 
   add_threads_option(app, options);
 }
 
+void add_style(CLI::App& app, Options& options) {
+  add_choice(app, "--engine",
+             "Choose --color-type and --scale-to-factor as the engine needs them, unless they are given themselves",
+             options.engine, kEngine);
+  add(app,
+      {"--color-type", names_of(kColorType), "float",
+       "How COLOR_0 is stored: float, or normalised integers of 16 or 8 bits, the latter dithered. Unless given, u16 "
+       "with --meshopt"},
+      [&options](const std::string& text) { options.color_type = parse_choice(text, kColorType); });
+  CLI::Option* const scale = app.add_flag_callback(
+      "--scale-to-factor", [&options] { options.scale_to_factor = true; },
+      "For engines that store 8 bits: scale the colours of each primitive up to white, and the base colour factor of "
+      "its material down (default: off)");
+  app.add_flag_callback(
+         "--no-scale-to-factor", [&options] { options.scale_to_factor = false; },
+         "Do not, whatever --engine says (default: off)")
+      ->excludes(scale);
+  add_choice(
+      app, "--target",
+      "Materials show COLOR_0 and nothing else (unlit), or stay as they are, lit by the engine (keep): COLOR_0 is "
+      "then light without their colour",
+      options.target, kTarget);
+  add(app,
+      {"--radiance-attribute", "NAME", "none",
+       "Write the light of COLOR_0 a second time, as floats without a limit, into the custom attribute _NAME"},
+      [&options](const std::string& text) { options.radiance_attribute = parse_attribute_name(text); });
+  app.add_flag_callback(
+      "--strip-lights", [&options] { options.strip_lights = true; },
+      "Leave the lights of the file out of the output, punctual and image based ones: their light is in the colours "
+      "now "
+      "(default: off)");
+}
+
 /// What --draco without a number stands for.
 constexpr const char* kColorBits = "16";
 
@@ -169,10 +224,7 @@ void add_output_options(CLI::App& app, CommandLine& line) {
         options.exposure = 1.0 / (1.2 * std::exp2(parse_number(text, {-30.0, 30.0})));
       })
       ->excludes(exposure);
-  add(app,
-      {"--color-type", names_of(kColorType), "float",
-       "How COLOR_0 is stored: float, or normalised integers of 16 or 8 bits. Unless given, u16 with --meshopt"},
-      [&options](const std::string& text) { options.color_type = parse_choice(text, kColorType); });
+  add_style(app, options);
   add_compression(app, options);
   add_json_option(app, line.json);
   add_progress_option(app, line.progress);
@@ -201,7 +253,9 @@ struct Parser {
     app.footer(std::string(kHelpFooter));
     add_files(app, line);
     add_mesh_options(app, line.options);
+    add_node_options(app, line.options);
     add_light_options(app, line.options);
+    add_bake_option(app, line.options);
     add_transport_options(app, line.options, quality);
     add_output_options(app, line);
     add_other_options(app);
