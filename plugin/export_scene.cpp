@@ -1,5 +1,7 @@
 #include "plugin/export_scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -120,11 +122,17 @@ void assign_materials(Document& document, const ImportedScene& scene, const std:
 
   // The others.
   std::map<std::tuple<std::uint32_t, float, float, float>, std::size_t> known;
+  std::map<std::uint32_t, std::size_t> version_count;
   for (const BakedPrimitive& baked : primitives) {
     std::optional<Json> change = change_of(baked);
     if (!change) continue;
     const auto key = std::tuple(baked.material, baked.factor.x, baked.factor.y, baked.factor.z);
     if (!known.contains(key)) {
+      // Importers that keep materials in files of their own tell them apart by name.
+      const std::size_t version = ++version_count[baked.material];
+      if (version > 1 && change->contains("name") && (*change)["name"].is_string()) {
+        (*change)["name"] = fmt::format("{}.{}", (*change)["name"].get<std::string>(), version);
+      }
       known[key] = export_material(document, scene.materials[baked.material], std::move(*change), referenced);
     }
     primitive_json(root, baked)["material"] = known[key];

@@ -343,5 +343,18 @@ TEST(ExportScene, TheRadianceStandsBesideTheColours) {
   EXPECT_EQ(scene.colors(0)[0], 1.0F);
 }
 
+TEST(ExportScene, CopiesOfAMaterialHaveNamesOfTheirOwn) {
+  Options options;
+  options.exposure = 1.0;
+  options.scale_to_factor = true;
+  GltfBuilder builder = two_dark_squares();
+  builder.json["materials"][0]["name"] = "red";
+  const std::size_t old_colors = builder.add_accessor(std::vector<glm::vec4>(4, {0.5F, 0.5F, 0.5F, 1.0F}));
+  builder.json["meshes"][1]["primitives"][0]["attributes"]["COLOR_0"] = old_colors;
+  const Exported scene = exported(builder, 0, options);
+  EXPECT_EQ(scene.material_of(0)["name"], "red");
+  EXPECT_EQ(scene.material_of(1)["name"], "red.2");
+}
+
 }  // namespace
 }  // namespace gltf_radiosity
