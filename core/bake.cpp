@@ -1,9 +1,11 @@
 #include "core/bake.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 
 #include "core/mesh/patches.h"
 #include "core/parallel.h"
+#include "core/photometry.h"
 #include "core/reconstruct/gather.h"
 #include "core/transport/direct_light.h"
 #include "core/transport/energy_balance.h"
@@ -34,6 +36,16 @@ int patch_limit(const BakeOptions& options, const RefinedMesh& mesh) {
 bool use_raster(const Scene& scene, const BakeOptions& options) {
   if (options.visibility != Visibility::kAuto) return options.visibility == Visibility::kRaster;
   return raster_is_faster(scene.triangles.size(), options.hemicube_resolution);
+}
+
+/// What the patches send to the points where light is gathered, lm/m2: glow is a source, the rest is reflected.
+std::vector<Rgb> sent_light(const Patches& patches, std::vector<Rgb> radiosity, LightParts parts) {
+  if (parts == LightParts::kBoth) return radiosity;
+  for (std::uint32_t i = 0; i < patches.patch_count(); ++i) {
+    const Rgb glow = exitance_of_luminance(patches.glow[i]);
+    radiosity[i] = parts == LightParts::kDirect ? glow : glm::max(radiosity[i] - glow, Rgb(0.0F));
+  }
+  return radiosity;
 }
 
 BakeReport describe(const RefinedMesh& mesh, const Patches& patches, const Solution& solution,
@@ -83,8 +95,16 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
 
   // Reconstruction: light at samples inside the elements, then at vertices; the mesh is cut where that misses the
   // light.
-  const Gatherer gatherer{scene,        patches, sample_hemicube,    *items,
-                          direct_light, sky,     solution.radiosity, surface_offset(scene)};
+  const std::vector<Rgb> sent = sent_light(patches, solution.radiosity, options.parts);
+  const Gatherer gatherer{scene,
+                          patches,
+                          sample_hemicube,
+                          *items,
+                          direct_light,
+                          sky,
+                          sent,
+                          surface_offset(scene),
+                          options.parts != LightParts::kIndirect};
   Reconstruction light = reconstruct(display, gatherer, options.fit, options.adapt, progress);
 
   const EnergyBalance balance = energy_balance(problem, solution, rows);

@@ -20,6 +20,9 @@ enum class Visibility : std::uint8_t { kAuto, kRaster, kRays };
 /// Which method solves for the light between the patches.
 enum class Solver : std::uint8_t { kProgressive, kGathering };
 
+/// What of the light at a vertex is wanted: what comes straight from lamps, lights and sky, what surfaces reflect.
+enum class LightParts : std::uint8_t { kBoth, kDirect, kIndirect };
+
 struct BakeOptions {
   Refine refine = Refine::kUniform;
   SubdivideOptions subdivide;    ///< how the display mesh is cut, or what adaptive refinement starts from
@@ -28,9 +31,10 @@ struct BakeOptions {
   Visibility visibility = Visibility::kAuto;
   Solver solver = Solver::kGathering;
   Fit fit = Fit::kLeastSquares;
-  float residual = 0.001F;  ///< stop when this share of the emitted flux is still unshot, (0,1)
-  int max_patches = 0;      ///< patches that send light; more see finer indirect light; 0: see automatic_patches()
-  int lamp_rays = 32;       ///< shadow rays from a sample to all lamps together, where some are hidden
+  LightParts parts = LightParts::kBoth;  ///< of the result; the parts add up to both, but for the noise of each fit
+  float residual = 0.001F;               ///< stop when this share of the emitted flux is still unshot, (0,1)
+  int max_patches = 0;  ///< patches that send light; more see finer indirect light; 0: see automatic_patches()
+  int lamp_rays = 32;   ///< shadow rays from a sample to all lamps together, where some are hidden
   std::size_t row_cache_bytes = std::size_t{1} << 30;  ///< memory for rows of form factors: older ones are evicted
   int threads = 0;                                     ///< 0 uses every core; the result does not depend on it
 };

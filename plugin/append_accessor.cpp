@@ -67,11 +67,43 @@ void set_bounds(const RawAccessor& raw, Json& accessor) {
   }
 }
 
+ComponentType index_type(std::size_t vertex_count) {
+  constexpr std::size_t kMaxVerticesOfU16 = 65535;
+  return vertex_count <= kMaxVerticesOfU16 ? ComponentType::kU16 : ComponentType::kU32;
+}
+
+RawAccessor index_rows(std::span<const glm::uvec3> triangles, std::size_t vertex_count) {
+  RawAccessor raw{index_type(vertex_count), 1, false, triangles.size() * 3, {}};
+  const std::size_t size = component_size(raw.component);
+  raw.bytes.reserve(raw.count * size);
+  for (const glm::uvec3& triangle : triangles) {
+    for (int corner = 0; corner < 3; ++corner) {
+      for (std::size_t byte = 0; byte < size; ++byte) {
+        raw.bytes.push_back(static_cast<std::uint8_t>(triangle[corner] >> (8 * byte)));
+      }
+    }
+  }
+  return raw;
+}
+
 std::size_t BufferBuilder::append(std::span<const std::uint8_t> bytes) {
   bytes_.resize(aligned(bytes_.size()));
   const std::size_t offset = bytes_.size();
   bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
   return offset;
+}
+
+std::size_t BufferBuilder::reserve_decoded(std::size_t size) {
+  const std::size_t offset = aligned(decoded_size_);
+  decoded_size_ = offset + size;
+  return offset;
+}
+
+void move_into(Document& document, BufferBuilder& buffer) {
+  assert(buffer.decoded_size() == 0);
+  document.json["buffers"].push_back({{"byteLength", buffer.bytes().size()}});
+  document.buffers.push_back(buffer.bytes());
+  buffer = BufferBuilder();
 }
 
 std::size_t append_accessor(Document& document, BufferBuilder& buffer, const RawAccessor& raw, BufferTarget target,

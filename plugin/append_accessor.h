@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <span>
 
 #include "plugin/accessor_view.h"
@@ -17,9 +18,25 @@ class BufferBuilder {
   std::size_t append(std::span<const std::uint8_t> bytes);
   const Bytes& bytes() const { return bytes_; }
 
+  /// Reserves room in another buffer, [document.buffers.size() + 1], aligned to 4 bytes, and returns the offset. It
+  /// holds no data: decoders of EXT_meshopt_compression put there what they decode.
+  std::size_t reserve_decoded(std::size_t size);
+  std::size_t decoded_size() const { return decoded_size_; }
+
  private:
   Bytes bytes_;
+  std::size_t decoded_size_ = 0;
 };
+
+/// Makes what `buffer` holds a buffer of the document, so that it can be read; `buffer` is empty afterwards and stands
+/// for the next one.
+void move_into(Document& document, BufferBuilder& buffer);
+
+/// The smallest type for the indices of so many vertices: the largest number of a type means "restart the primitive".
+ComponentType index_type(std::size_t vertex_count);
+
+/// A list of triangles as indices of the smallest type for `vertex_count` vertices.
+RawAccessor index_rows(std::span<const glm::uvec3> triangles, std::size_t vertex_count);
 
 /// Sets `accessor`'s min and max to those of `raw`, in the stored component type. REQUIRES: raw.count > 0.
 void set_bounds(const RawAccessor& raw, Json& accessor);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <string_view>
 #include <utility>
 
 namespace gltf_radiosity {
@@ -14,6 +16,11 @@ bool is_finite_and_at_least(double value, double least) { return std::isfinite(v
 bool is_valid(const Sun& sun) {
   return std::isfinite(sun.azimuth_degrees) && std::abs(sun.elevation_degrees) <= 90.0 &&
          is_finite_and_at_least(sun.illuminance_lux, 0.0);
+}
+
+bool is_attribute_name(const std::string& name) {
+  constexpr std::string_view kAllowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
+  return name.size() <= 64 && name.find_first_not_of(kAllowed) == std::string::npos;
 }
 
 Error refuse(const char* option, const char* why) { return {ErrorCode::kBadOption, option, why}; }
@@ -54,6 +61,13 @@ Result<Done> check_options(const Options& options) {
   if (options.exposure && !(is_finite_and_at_least(*options.exposure, 0.0) && *options.exposure > 0.0)) {
     return refuse("--exposure", "must be above 0");
   }
+  if (!is_attribute_name(options.radiance_attribute)) {
+    return refuse("--radiance-attribute", "must be up to 64 letters, digits and underscores");
+  }
+  if (options.draco_bits != 0 && (options.draco_bits < 8 || options.draco_bits > 24)) {
+    return refuse("--draco", "must lie between 8 and 24");
+  }
+  if (options.draco_bits != 0 && options.meshopt) return refuse("--meshopt", "excludes --draco");
   return Done{};
 }
 

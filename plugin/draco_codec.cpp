@@ -15,11 +15,11 @@
 #include "plugin/accessor_view.h"
 #include "plugin/append_accessor.h"
 #include "plugin/check_document.h"
+#include "plugin/used_extensions.h"
 
 namespace gltf_radiosity {
 namespace {
 
-constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
 constexpr std::uint64_t kIndices = std::numeric_limits<std::uint64_t>::max();  ///< stands for a blob's triangles
 
 /// What an accessor was filled with: an attribute (its unique id) of the blob in a bufferView.
@@ -28,22 +28,10 @@ struct Source {
   bool operator==(const Source&) const = default;
 };
 
-Result<std::unique_ptr<draco::Mesh>> decode_blob(const Document& document, std::size_t view_index,
-                                                 const std::string& place) {
+std::span<const std::uint8_t> blob_in(const Document& document, std::size_t view_index) {
   const Json& view = document.json["bufferViews"][view_index];
-  const Bytes& bytes = document.buffers[view["buffer"].get<std::size_t>()];
-  draco::DecoderBuffer buffer;
-  buffer.Init(reinterpret_cast<const char*>(bytes.data()) + view.value("byteOffset", std::size_t{0}),
-              view["byteLength"].get<std::size_t>());
-  // Draco throws std::bad_alloc or std::length_error on some broken blobs.
-  try {
-    draco::Decoder decoder;
-    auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
-    if (!decoded.ok()) return bad_input(place, fmt::format("Draco cannot decode it: {}", decoded.status().error_msg()));
-    return std::move(decoded).value();
-  } catch (const std::exception&) {
-    return bad_input(place, "Draco cannot decode it");
-  }
+  return std::span(document.buffers[view["buffer"].get<std::size_t>()])
+      .subspan(view.value("byteOffset", std::size_t{0}), view["byteLength"].get<std::size_t>());
 }
 
 template <typename T>
@@ -56,25 +44,6 @@ bool copy_values(const draco::Mesh& mesh, const draco::PointAttribute& attribute
     std::memcpy(bytes.data() + point * stride, converted, sizeof(T) * static_cast<std::size_t>(components));
   }
   return true;
-}
-
-bool copy_values(const draco::Mesh& mesh, const draco::PointAttribute& attribute, ComponentType component,
-                 std::size_t stride, Bytes& bytes) {
-  switch (component) {
-    case ComponentType::kI8:
-      return copy_values<std::int8_t>(mesh, attribute, stride, bytes);
-    case ComponentType::kU8:
-      return copy_values<std::uint8_t>(mesh, attribute, stride, bytes);
-    case ComponentType::kI16:
-      return copy_values<std::int16_t>(mesh, attribute, stride, bytes);
-    case ComponentType::kU16:
-      return copy_values<std::uint16_t>(mesh, attribute, stride, bytes);
-    case ComponentType::kU32:
-      return copy_values<std::uint32_t>(mesh, attribute, stride, bytes);
-    case ComponentType::kF32:
-      return copy_values<float>(mesh, attribute, stride, bytes);
-  }
-  return false;
 }
 
 /// Fills accessors of one document from Draco blobs.
@@ -90,7 +59,7 @@ class DracoDecoder {
     if (!primitive.contains("indices")) return bad_input(place, "is compressed with Draco but has no indices");
 
     if (!has_data(primitive, extension, view)) {
-      auto mesh = decode_blob(document_, view, place);
+      auto mesh = decode_draco_blob(blob_in(document_, view), place);
       if (!mesh) return mesh.error();
       if (auto filled = fill_indices(primitive, **mesh, view, place); !filled) return filled.error();
       for (const auto& [name, id] : extension["attributes"].items()) {
@@ -100,9 +69,7 @@ class DracoDecoder {
         }
       }
     }
-    Json& extensions = primitive["extensions"];
-    extensions.erase(kDracoExtension);
-    if (extensions.empty()) primitive.erase("extensions");
+    remove_extension(primitive, kDracoExtension);
     return Done{};
   }
 
@@ -203,7 +170,7 @@ class DracoDecoder {
 
     const std::size_t stride = (layout->size + 3) / 4 * 4;
     Bytes data(stride * mesh.num_points());
-    if (!copy_values(mesh, *attribute, layout->component, stride, data)) {
+    if (!copy_draco_values(mesh, *attribute, layout->component, stride, data)) {
       return bad_input(place, fmt::format("Draco attribute {} does not fit accessors[{}]", source.id, index));
     }
     attach(reference, source, data, stride == layout->size ? 0 : stride, 34962);
@@ -215,21 +182,40 @@ class DracoDecoder {
   Bytes bytes_;
 };
 
-void remove_name(Json& root, const char* array) {
-  const auto it = root.find(array);
-  if (it == root.end()) return;
-  Json kept = Json::array();
-  for (const Json& name : *it) {
-    if (name != kDracoExtension) kept.push_back(name);
-  }
-  if (kept.empty()) {
-    root.erase(array);
-  } else {
-    *it = std::move(kept);
+}  // namespace
+
+Result<std::unique_ptr<draco::Mesh>> decode_draco_blob(std::span<const std::uint8_t> blob, const std::string& place) {
+  draco::DecoderBuffer buffer;
+  buffer.Init(reinterpret_cast<const char*>(blob.data()), blob.size());
+  // Draco throws std::bad_alloc or std::length_error on some broken blobs.
+  try {
+    draco::Decoder decoder;
+    auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
+    if (!decoded.ok()) return bad_input(place, fmt::format("Draco cannot decode it: {}", decoded.status().error_msg()));
+    return std::move(decoded).value();
+  } catch (const std::exception&) {
+    return bad_input(place, "Draco cannot decode it");
   }
 }
 
-}  // namespace
+bool copy_draco_values(const draco::Mesh& mesh, const draco::PointAttribute& attribute, ComponentType component,
+                       std::size_t stride, Bytes& bytes) {
+  switch (component) {
+    case ComponentType::kI8:
+      return copy_values<std::int8_t>(mesh, attribute, stride, bytes);
+    case ComponentType::kU8:
+      return copy_values<std::uint8_t>(mesh, attribute, stride, bytes);
+    case ComponentType::kI16:
+      return copy_values<std::int16_t>(mesh, attribute, stride, bytes);
+    case ComponentType::kU16:
+      return copy_values<std::uint16_t>(mesh, attribute, stride, bytes);
+    case ComponentType::kU32:
+      return copy_values<std::uint32_t>(mesh, attribute, stride, bytes);
+    case ComponentType::kF32:
+      return copy_values<float>(mesh, attribute, stride, bytes);
+  }
+  return false;
+}
 
 Result<Done> decode_draco(Document& document) {
   DracoDecoder decoder(document);
@@ -246,8 +232,7 @@ Result<Done> decode_draco(Document& document) {
   }
   if (!any) return Done{};
   decoder.finish();
-  remove_name(document.json, "extensionsUsed");
-  remove_name(document.json, "extensionsRequired");
+  forget_extension(document.json, kDracoExtension);
   return Done{};
 }
 

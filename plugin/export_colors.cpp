@@ -1,12 +1,14 @@
 #include "plugin/export_colors.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <glm/common.hpp>
 
 #include "core/photometry.h"
+#include "core/random.h"
 #include "plugin/scene_detail.h"
 
 namespace gltf_radiosity {
@@ -24,6 +26,7 @@ struct Source {
   const PrimitiveInstance& instance;
   const ImportedMaterial& material;
   const RefinedPrimitive& refined;
+  const ColorParts& parts;
 };
 
 /// The source's COLOR_0 at every output vertex.
@@ -78,7 +81,7 @@ struct Emission {
 
 Emission emission(const Source& source, std::uint32_t instance) {
   Emission result;
-  if (source.material.emissive == Rgb(0.0F)) return result;
+  if (source.material.emissive == Rgb(0.0F) || !source.parts.emission) return result;
   result.luminance = vertex_means(source, [&](std::uint32_t triangle, const radiosity::SubTriangle& part) {
     return radiosity::mean_emission(source.scene.scene, triangle, part);
   });
@@ -91,10 +94,20 @@ Emission emission(const Source& source, std::uint32_t instance) {
 
 /// The share of the base colour that reflects diffusely, at every vertex; empty if that is all of it.
 std::vector<Rgb> diffuse_share(const Source& source, std::uint32_t instance) {
-  if (source.material.metals_reflect || source.material.metallic == 0.0F) return {};
+  if (!source.parts.base_color || source.material.metals_reflect || source.material.metallic == 0.0F) return {};
   return vertex_means(source, [&](std::uint32_t triangle, const radiosity::SubTriangle& part) {
     return Rgb(1.0F - mean_metallic(source.scene, instance, triangle, part));
   });
+}
+
+/// The same number for vertices at one position.
+std::uint32_t number_of(const glm::vec3& position) {
+  const glm::vec3 p = position + 0.0F;  // -0 is 0
+  const auto low = std::uint64_t{std::bit_cast<std::uint32_t>(p.x)};
+  const auto high = std::uint64_t{std::bit_cast<std::uint32_t>(p.y)};
+  radiosity::Random random(high << 32U | low, std::bit_cast<std::uint32_t>(p.z));
+  random.bits();  // the first one depends on little more than the sum of both
+  return random.bits();
 }
 
 VertexColors colors_of_instance(const Source& source, const radiosity::Bake& bake, std::uint32_t instance) {
@@ -103,11 +116,12 @@ VertexColors colors_of_instance(const Source& source, const radiosity::Bake& bak
   const Emission emitted = emission(source, instance);
   const std::vector<Rgb> diffuse = diffuse_share(source, instance);
   const bool keeps_alpha = source.material.alpha_mode != AlphaMode::kOpaque;
-  const Rgb factor(source.material.base_color_factor);
+  const Rgb factor = source.parts.base_color ? Rgb(source.material.base_color_factor) : Rgb(1.0F);
 
   VertexColors colors;
   colors.unexposed.reserve(old.size());
   colors.samples.reserve(old.size());
+  colors.places.reserve(old.size());
   for (std::size_t v = 0; v < old.size(); ++v) {
     // Reflected.
     const Rgb rho = factor * Rgb(old[v]) * (diffuse.empty() ? Rgb(1.0F) : diffuse[v]);
@@ -120,35 +134,63 @@ VertexColors colors_of_instance(const Source& source, const radiosity::Bake& bak
 
     colors.unexposed.emplace_back(shown, keeps_alpha ? old[v].a : 1.0F);
     colors.samples.push_back({shown, areas[v], luminance != Rgb(0.0F)});
+    colors.places.push_back(number_of(source.mesh.positions[source.refined.vertices[v]]));
   }
   return colors;
+}
+
+/// What is no number is black.
+float in_unit_range(float value) { return value > 0.0F ? std::min(value, 1.0F) : 0.0F; }
+
+/// Moves the bands of RGBA colours, [places.size() * 4], by up to half a step of 8 bits.
+void dither(std::vector<float>& values, std::span<const std::uint32_t> places) {
+  constexpr float kStep = 1.0F / 255.0F;
+  for (std::size_t v = 0; v < places.size(); ++v) {
+    radiosity::Random random(places[v], 0);
+    for (std::size_t band = 0; band < 3; ++band) {
+      float& value = values[4 * v + band];
+      const float steps = value / kStep;
+      const float whole = std::floor(steps);
+      value = (steps - whole > random.share() ? whole + 1.0F : whole) * kStep;
+    }
+  }
 }
 
 }  // namespace
 
 std::vector<VertexColors> vertex_colors(const ImportedScene& scene, const radiosity::Bake& bake,
-                                        std::span<const RefinedPrimitive> refined) {
+                                        std::span<const RefinedPrimitive> refined, const ColorParts& parts) {
   assert(refined.size() == scene.instances.size());
   std::vector<VertexColors> colors(refined.size());
   for (std::uint32_t i = 0; i < refined.size(); ++i) {
     const PrimitiveInstance& instance = scene.instances[i];
     if (!instance.receives) continue;
-    const Source source{scene, bake.mesh, instance, scene.materials[instance.material], refined[i]};
+    const Source source{scene, bake.mesh, instance, scene.materials[instance.material], refined[i], parts};
     colors[i] = colors_of_instance(source, bake, i);
   }
   return colors;
 }
 
-std::size_t export_color_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors, float k,
+Rgb brightest(const VertexColors& colors, float k) {
+  constexpr float kLeast = 0x1p-16F;
+  Rgb most(0.0F);
+  for (const glm::vec4& color : colors.unexposed) {
+    for (int band = 0; band < 3; ++band) most[band] = std::max(most[band], in_unit_range(color[band] * k));
+  }
+  for (int band = 0; band < 3; ++band) most[band] = most[band] > 0.0F ? std::max(most[band], kLeast) : 1.0F;
+  return most;
+}
+
+std::size_t export_color_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors, const Rgb& k,
                                   ColorType type) {
-  // Expose and clamp; what is no number becomes black.
-  const auto clamped = [](float value) { return value > 0.0F ? std::min(value, 1.0F) : 0.0F; };
+  // Expose and clamp.
   std::vector<float> values;
   values.reserve(colors.unexposed.size() * 4);
   for (const glm::vec4& color : colors.unexposed) {
-    for (int band = 0; band < 3; ++band) values.push_back(clamped(color[band] * k));
-    values.push_back(clamped(color.a));
+    for (int band = 0; band < 3; ++band) values.push_back(in_unit_range(color[band] * k[band]));
+    values.push_back(in_unit_range(color.a));
   }
+  if (type == ColorType::kU8) dither(values, colors.places);
 
   // Store.
   const ComponentType component = type == ColorType::kFloat ? ComponentType::kF32
@@ -158,6 +200,33 @@ std::size_t export_color_accessor(Document& document, BufferBuilder& buffer, con
   const RawAccessor raw{component, 4, normalized, colors.unexposed.size(),
                         encode_floats(values, component, normalized)};
   return append_accessor(document, buffer, raw, BufferTarget::kVertices);
+}
+
+std::string radiance_semantic(const Options& options) {
+  return options.radiance_attribute.starts_with('_') ? options.radiance_attribute : "_" + options.radiance_attribute;
+}
+
+std::size_t export_radiance_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors, float k) {
+  std::vector<float> values;
+  values.reserve(colors.unexposed.size() * 3);
+  for (const glm::vec4& color : colors.unexposed) {
+    for (int band = 0; band < 3; ++band) values.push_back(color[band] * k);
+  }
+  const RawAccessor raw{ComponentType::kF32, 3, false, colors.unexposed.size(),
+                        encode_floats(values, ComponentType::kF32, false)};
+  return append_accessor(document, buffer, raw, BufferTarget::kVertices);
+}
+
+Result<Done> check_attribute_is_free(const Document& document, const ImportedScene& scene, const Options& options) {
+  if (options.radiance_attribute.empty()) return Done{};
+  const std::string semantic = radiance_semantic(options);
+  for (const PrimitiveInstance& instance : scene.instances) {
+    const Json& primitive = document.json["meshes"][instance.mesh]["primitives"][instance.primitive];
+    if (!instance.receives || !primitive["attributes"].contains(semantic)) continue;
+    return Error{ErrorCode::kBadOption, "--radiance-attribute",
+                 place_of_primitive(instance.mesh, instance.primitive) + " has an attribute " + semantic + " already"};
+  }
+  return Done{};
 }
 
 }  // namespace gltf_radiosity

@@ -4,15 +4,21 @@
 //   without:                     COLOR_0 = k (rho H / pi + Le)
 //
 // so that an engine which shows COLOR_0 x baseColorFactor (1) x texture, unlit, shows k (rho H / pi + Le).
+//
+// Where the material stays lit (--target keep) it keeps its base colour and its emission: COLOR_0 = k (H / pi) x old
+// COLOR_0.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec4.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/bake.h"
 #include "core/reconstruct/exposure.h"
+#include "core/rgb.h"
 #include "plugin/append_accessor.h"
 #include "plugin/export_meshes.h"
 #include "plugin/import_scene.h"
@@ -24,14 +30,34 @@ struct VertexColors {
   std::vector<glm::vec4> unexposed;  ///< what COLOR_0 holds at k = 1, cd/m2; alpha as in the source
   /// What has to fit into [0,1]: `unexposed`, which with a texture is brighter than what is displayed.
   std::vector<radiosity::ExposureSample> samples;
+  std::vector<std::uint32_t> places;  ///< a number for each position: vertices at one place are dithered alike
+};
+
+/// What COLOR_0 holds beside the light.
+struct ColorParts {
+  bool base_color = true;  ///< the material's factor and what is metallic
+  bool emission = true;
 };
 
 /// [refined.size()], empty entries for instances that do not receive.
 std::vector<VertexColors> vertex_colors(const ImportedScene& scene, const radiosity::Bake& bake,
-                                        std::span<const RefinedPrimitive> refined);
+                                        std::span<const RefinedPrimitive> refined, const ColorParts& parts = {});
 
-/// Appends an accessor with k x colours clamped to [0,1] and returns its index.
-std::size_t export_color_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors, float k,
-                                  ColorType type);
+/// The brightest of each band at exposure k, within [2^-16, 1]; 1 where a band is black.
+radiosity::Rgb brightest(const VertexColors& colors, float k);
+
+/// Appends an accessor with k x colours clamped to [0,1] and returns its index. 8 bits are dithered: by less than a
+/// step, and what lies on a step stays.
+std::size_t export_color_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors,
+                                  const radiosity::Rgb& k, ColorType type);
+
+/// "_NAME" for options.radiance_attribute, with or without its underscore.
+std::string radiance_semantic(const Options& options);
+
+/// Appends an accessor with k x colours, floats without a limit, and returns its index.
+std::size_t export_radiance_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors, float k);
+
+/// An error if the file has an attribute of the name already.
+Result<Done> check_attribute_is_free(const Document& document, const ImportedScene& scene, const Options& options);
 
 }  // namespace gltf_radiosity

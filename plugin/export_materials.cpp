@@ -1,15 +1,15 @@
 #include "plugin/export_materials.h"
 
-#include <algorithm>
 #include <charconv>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "plugin/used_extensions.h"
+
 namespace gltf_radiosity {
 namespace {
 
-constexpr const char* kUnlit = "KHR_materials_unlit";
 constexpr const char* kVariants = "KHR_materials_variants";
 constexpr std::string_view kPointer = "/materials/";
 
@@ -35,34 +35,18 @@ void walk(const Json& value, const std::string& key, const Visit& visit) {
   }
 }
 
-void erase_if_empty(Json& object, const char* key) {
-  if (object.contains(key) && object[key].empty()) object.erase(key);
-}
-
-/// Removes `name` from a root array of extension names, and the array with its last name.
-void remove_name(Json& root, const char* array, const std::string& name) {
-  if (!root.contains(array)) return;
-  Json& names = root[array];
-  names.erase(std::remove(names.begin(), names.end(), Json(name)), names.end());
-  erase_if_empty(root, array);
-}
-
-void declare_used(Json& root, const char* extension) {
-  Json& used = root["extensionsUsed"];
-  if (std::find(used.begin(), used.end(), Json(extension)) == used.end()) used.push_back(extension);
-}
-
 }  // namespace
 
-Json unlit_material(const Json& source, const ImportedMaterial& material) {
+Json unlit_material(const Json& source, const ImportedMaterial& material, const radiosity::Rgb& factor) {
   Json unlit = source.is_object() ? source : Json::object();
 
-  // Base colour: COLOR_0 holds the factor.
+  // Base colour: COLOR_0 holds the source's factor.
   Json& pbr = unlit["pbrMetallicRoughness"];
   if (!pbr.is_object()) pbr = Json::object();
   pbr.erase("metallicRoughnessTexture");
   pbr.erase("baseColorFactor");
-  if (material.base_color_factor.a != 1.0F) pbr["baseColorFactor"] = {1.0, 1.0, 1.0, material.base_color_factor.a};
+  const glm::vec4 left(factor, material.base_color_factor.a);
+  if (left != glm::vec4(1.0F)) pbr["baseColorFactor"] = {left.r, left.g, left.b, left.a};
   pbr["metallicFactor"] = 0.0;
   pbr["roughnessFactor"] = 1.0;
 
@@ -74,26 +58,30 @@ Json unlit_material(const Json& source, const ImportedMaterial& material) {
       if (!shades(item.key())) extensions[item.key()] = item.value();
     }
   }
-  extensions[kUnlit] = Json::object();
+  extensions[kUnlitExtension] = Json::object();
   unlit["extensions"] = std::move(extensions);
   return unlit;
 }
 
-std::size_t export_unlit_material(Document& document, const ImportedMaterial& material,
-                                  const std::set<std::size_t>& referenced) {
-  declare_used(document.json, kUnlit);
+Json dimmed_material(const Json& source, const ImportedMaterial& material, const radiosity::Rgb& factor) {
+  Json dimmed = source.is_object() ? source : Json::object();
+  const glm::vec4 left = material.base_color_factor * glm::vec4(factor, 1.0F);
+  dimmed["pbrMetallicRoughness"]["baseColorFactor"] = {left.r, left.g, left.b, left.a};
+  return dimmed;
+}
+
+std::size_t export_material(Document& document, const ImportedMaterial& material, Json baked,
+                            std::set<std::size_t>& referenced) {
   Json& materials = document.json["materials"];
-  if (!material.source) {
-    materials.push_back(unlit_material(Json::object(), material));
-    return materials.size() - 1;
+  const bool in_place = material.source && !referenced.contains(*material.source);
+  const std::size_t index = in_place ? *material.source : materials.size();
+  if (in_place) {
+    materials[index] = std::move(baked);
+  } else {
+    materials.push_back(std::move(baked));
   }
-  Json unlit = unlit_material(materials[*material.source], material);
-  if (referenced.contains(*material.source)) {
-    materials.push_back(std::move(unlit));
-    return materials.size() - 1;
-  }
-  materials[*material.source] = std::move(unlit);
-  return *material.source;
+  referenced.insert(index);
+  return index;
 }
 
 std::set<std::size_t> referenced_materials(const Json& root) {
@@ -133,10 +121,7 @@ void forget_unused_material_extensions(Json& root) {
     for (const auto& item : value.items()) unused.erase(item.key());
   });
   unused.erase(kVariants);  // its list of names stays at the root
-  for (const std::string& name : unused) {
-    remove_name(root, "extensionsUsed", name);
-    remove_name(root, "extensionsRequired", name);
-  }
+  for (const std::string& name : unused) forget_extension(root, name);
 }
 
 }  // namespace gltf_radiosity

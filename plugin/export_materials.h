@@ -5,23 +5,29 @@
 #include <cstdint>
 #include <set>
 
+#include "core/rgb.h"
 #include "plugin/document.h"
 #include "plugin/import_materials.h"
 
 namespace gltf_radiosity {
 
+inline constexpr const char* kUnlitExtension = "KHR_materials_unlit";
+
 /// An unlit version of `source`, the JSON of the material that `material` was made of (an object without members for
 /// glTF's default material). Kept: name, extras, base colour texture with its transform, alpha mode and cutoff,
 /// doubleSided, alpha factor, extensions that do not shade. Set: KHR_materials_unlit, base colour 1, metallic 0,
 /// roughness 1. Removed: emissive, normal, occlusion and metallic-roughness, and shading extensions.
-Json unlit_material(const Json& source, const ImportedMaterial& material);
+/// `factor` is the base colour factor of what is not transparent: COLOR_0 was divided by it.
+Json unlit_material(const Json& source, const ImportedMaterial& material, const radiosity::Rgb& factor = {1, 1, 1});
 
-/// Puts an unlit version of the material into the document and returns its index; called once per material. It takes
-/// the place of the source if nothing else refers to that, so that files carry no dead materials; otherwise it is
-/// appended. KHR_materials_unlit is declared as used, not required. `referenced`: materials that something unbaked
-/// still refers to (referenced_materials).
-std::size_t export_unlit_material(Document& document, const ImportedMaterial& material,
-                                  const std::set<std::size_t>& referenced);
+/// `source` with its base colour factor times `factor`, lit as it was.
+Json dimmed_material(const Json& source, const ImportedMaterial& material, const radiosity::Rgb& factor);
+
+/// Puts `baked`, made of `material`, into the document and returns its index. It takes the place of the source if
+/// `referenced` (referenced_materials) does not name that, so that files carry no dead materials; otherwise it is
+/// appended. Then `referenced` names it.
+std::size_t export_material(Document& document, const ImportedMaterial& material, Json baked,
+                            std::set<std::size_t>& referenced);
 
 /// Every material that anything in the tree refers to by a member "material" or "materials", by an animation pointer or
 /// as a level of detail.

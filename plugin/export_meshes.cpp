@@ -12,9 +12,6 @@
 namespace gltf_radiosity {
 namespace {
 
-/// Fewer vertices fit 16-bit indices: 65535 itself means "restart the primitive".
-constexpr std::size_t kMaxVerticesOfU16 = 65535;
-
 /// Rewrites the accessors of one primitive.
 class AttributeExporter {
  public:
@@ -85,21 +82,6 @@ class AttributeExporter {
   std::map<std::pair<std::size_t, Interpolation>, std::size_t> exported_;
   std::size_t skin_set_count_ = 0;
 };
-
-RawAccessor index_accessor(const RefinedPrimitive& refined) {
-  const bool narrow = refined.vertices.size() <= kMaxVerticesOfU16;
-  RawAccessor raw{narrow ? ComponentType::kU16 : ComponentType::kU32, 1, false, refined.triangles.size() * 3, {}};
-  const std::size_t size = component_size(raw.component);
-  raw.bytes.reserve(raw.count * size);
-  for (const glm::uvec3& triangle : refined.triangles) {
-    for (int corner = 0; corner < 3; ++corner) {
-      for (std::size_t byte = 0; byte < size; ++byte) {
-        raw.bytes.push_back(static_cast<std::uint8_t>(triangle[corner] >> (8 * byte)));
-      }
-    }
-  }
-  return raw;
-}
 
 /// Deals the vertices to the instances; returns the output vertex of each vertex.
 std::vector<std::uint32_t> split_vertices(const radiosity::RefinedMesh& mesh, const ImportedScene& scene,
@@ -178,7 +160,8 @@ void export_geometry(Document& document, BufferBuilder& buffer, const PrimitiveI
   // Triangles.
   const Json like = primitive.contains("indices") ? document.json["accessors"][primitive["indices"].get<std::size_t>()]
                                                   : Json::object();
-  primitive["indices"] = append_accessor(document, buffer, index_accessor(refined), BufferTarget::kIndices, like);
+  const RawAccessor indices = index_rows(refined.triangles, refined.vertices.size());
+  primitive["indices"] = append_accessor(document, buffer, indices, BufferTarget::kIndices, like);
   if (primitive.contains("mode")) primitive["mode"] = 4;
 }
 

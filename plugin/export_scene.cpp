@@ -1,10 +1,13 @@
 #include "plugin/export_scene.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -12,11 +15,15 @@
 #include "plugin/export_colors.h"
 #include "plugin/export_materials.h"
 #include "plugin/export_meshes.h"
+#include "plugin/output_style.h"
+#include "plugin/used_extensions.h"
 
 namespace gltf_radiosity {
 namespace {
 
-constexpr const char* kVariants = "KHR_materials_variants";
+using radiosity::Rgb;
+
+constexpr const char* kVariantsExtension = "KHR_materials_variants";
 
 /// How often each mesh is referred to by a member "mesh", anywhere in the tree.
 void count_mesh_references(const Json& value, std::map<std::size_t, std::size_t>& counts) {
@@ -59,8 +66,8 @@ std::vector<std::size_t> separate_meshes(Json& root, const std::vector<Primitive
 
 /// A variant would show a material that is not unlit.
 void drop_variants(Json& primitive, const PrimitiveInstance& instance, std::vector<Warning>& warnings) {
-  if (!primitive.contains("extensions") || !primitive["extensions"].contains(kVariants)) return;
-  primitive["extensions"].erase(kVariants);
+  if (!primitive.contains("extensions") || !primitive["extensions"].contains(kVariantsExtension)) return;
+  primitive["extensions"].erase(kVariantsExtension);
   if (primitive["extensions"].empty()) primitive.erase("extensions");
   warnings.push_back({"variants-dropped", place_of_primitive(instance.mesh, instance.primitive),
                       "the material variants of this primitive were dropped, the default one was baked"});
@@ -81,27 +88,61 @@ float exposure(const std::vector<VertexColors>& colors, const Options& options, 
 struct BakedPrimitive {
   std::size_t mesh = 0, primitive = 0;
   std::uint32_t material = 0;
+  Rgb factor{1.0F};  ///< COLOR_0 was divided by it
 };
 
 Json& primitive_json(Json& root, const BakedPrimitive& baked) {
   return root["meshes"][baked.mesh]["primitives"][baked.primitive];
 }
 
-void assign_materials(Document& document, const ImportedScene& scene, const std::vector<BakedPrimitive>& primitives) {
-  for (const BakedPrimitive& baked : primitives) primitive_json(document.json, baked).erase("material");
-  const std::set<std::size_t> referenced = referenced_materials(document.json);
-  std::map<std::uint32_t, std::size_t> unlit;
+/// The material of a baked primitive: the source's JSON -> the output's; none if it stays as it is.
+std::optional<Json> baked_material(const Json& source, const ImportedMaterial& material, const Rgb& factor,
+                                   Target target) {
+  if (target == Target::kUnlit) return unlit_material(source, material, factor);
+  if (factor == Rgb(1.0F)) return std::nullopt;
+  return dimmed_material(source, material, factor);
+}
+
+void assign_materials(Document& document, const ImportedScene& scene, const std::vector<BakedPrimitive>& primitives,
+                      Target target) {
+  // What stays as it is, and what others look at.
+  Json& root = document.json;
+  const Json sources = root.value("materials", Json::array());
+  const auto source_of = [&](const BakedPrimitive& baked) {
+    const auto source = scene.materials[baked.material].source;
+    return source ? sources[*source] : Json::object();
+  };
+  const auto change_of = [&](const BakedPrimitive& baked) {
+    return baked_material(source_of(baked), scene.materials[baked.material], baked.factor, target);
+  };
   for (const BakedPrimitive& baked : primitives) {
-    if (!unlit.contains(baked.material)) {
-      unlit[baked.material] = export_unlit_material(document, scene.materials[baked.material], referenced);
-    }
-    primitive_json(document.json, baked)["material"] = unlit[baked.material];
+    if (change_of(baked)) primitive_json(root, baked).erase("material");
   }
-  forget_unused_material_extensions(document.json);
+  std::set<std::size_t> referenced = referenced_materials(root);
+
+  // The others.
+  std::map<std::tuple<std::uint32_t, float, float, float>, std::size_t> known;
+  std::map<std::uint32_t, std::size_t> version_count;
+  for (const BakedPrimitive& baked : primitives) {
+    std::optional<Json> change = change_of(baked);
+    if (!change) continue;
+    const auto key = std::tuple(baked.material, baked.factor.x, baked.factor.y, baked.factor.z);
+    if (!known.contains(key)) {
+      // Importers that keep materials in files of their own tell them apart by name.
+      const std::size_t version = ++version_count[baked.material];
+      if (version > 1 && change->contains("name") && (*change)["name"].is_string()) {
+        (*change)["name"] = fmt::format("{}.{}", (*change)["name"].get<std::string>(), version);
+      }
+      known[key] = export_material(document, scene.materials[baked.material], std::move(*change), referenced);
+    }
+    primitive_json(root, baked)["material"] = known[key];
+  }
+  if (target == Target::kUnlit && !primitives.empty()) declare_extension(root, kUnlitExtension);
+  forget_unused_material_extensions(root);
 }
 
 /// Files of one level can share an exposure that is written down.
-void sign(Json& root, const ExportReport& report) {
+void sign(Json& root, const ExportReport& report, const Options& options) {
   Json& asset = root["asset"];
   if (asset.contains("extras") && !asset["extras"].is_object()) {
     Json original = std::move(asset["extras"]);
@@ -111,10 +152,15 @@ void sign(Json& root, const ExportReport& report) {
                                   {"version", version()},
                                   {"exposure", report.exposure},
                                   {"clipped", report.clipped_share}};
+  Json& signature = asset["extras"]["radiosity"];
+  if (options.bake != BakedLight::kBoth) signature["light"] = name_of(options.bake);
+  if (options.target == Target::kKeep) signature["target"] = "keep";
+  if (!options.radiance_attribute.empty()) signature["radiance"] = radiance_semantic(options);
 }
 
 void count(const PrimitiveInstance& instance, const RefinedPrimitive& refined, ExportReport& report) {
   report.triangles += instance.receives ? refined.triangles.size() : instance.triangle_count;
+  report.baked_triangles += instance.receives ? refined.triangles.size() : 0;
   report.vertices += instance.receives ? refined.vertices.size() : instance.vertex_count;
 }
 
@@ -125,26 +171,34 @@ ExportReport export_scene(Document& document, BufferBuilder& buffer, const Impor
   // One exposure for everything.
   ExportReport report;
   const std::vector<RefinedPrimitive> refined = split_by_instance(bake.mesh, scene);
-  const std::vector<VertexColors> colors = vertex_colors(scene, bake, refined);
+  const bool unlit = options.target == Target::kUnlit;
+  const ColorParts parts{unlit, unlit && options.bake != BakedLight::kIndirect};
+  const std::vector<VertexColors> colors = vertex_colors(scene, bake, refined, parts);
   const float k = exposure(colors, options, report);
 
   // Geometry and colours.
+  const OutputStyle style = output_style(options);
   std::vector<BakedPrimitive> baked;
   const std::vector<std::size_t> meshes = separate_meshes(document.json, scene.instances);
   for (std::size_t i = 0; i < refined.size(); ++i) {
     const PrimitiveInstance& instance = scene.instances[i];
     count(instance, refined[i], report);
     if (!instance.receives) continue;
-    baked.push_back({meshes[i], instance.primitive, instance.material});
+    const Rgb factor = style.scale_to_factor ? brightest(colors[i], k) : Rgb(1.0F);
+    baked.push_back({meshes[i], instance.primitive, instance.material, factor});
     Json primitive = primitive_json(document.json, baked.back());
-    drop_variants(primitive, instance, warnings);
+    if (unlit || factor != Rgb(1.0F)) drop_variants(primitive, instance, warnings);
     if (refined[i].changed) export_geometry(document, buffer, instance, refined[i], primitive);
-    primitive["attributes"]["COLOR_0"] = export_color_accessor(document, buffer, colors[i], k, options.color_type);
+    primitive["attributes"]["COLOR_0"] =
+        export_color_accessor(document, buffer, colors[i], k / factor, style.color_type);
+    if (!options.radiance_attribute.empty()) {
+      primitive["attributes"][radiance_semantic(options)] = export_radiance_accessor(document, buffer, colors[i], k);
+    }
     primitive_json(document.json, baked.back()) = std::move(primitive);
   }
 
-  assign_materials(document, scene, baked);
-  sign(document.json, report);
+  assign_materials(document, scene, baked, options.target);
+  sign(document.json, report, options);
   return report;
 }
 

@@ -13,15 +13,17 @@ namespace gltf_radiosity {
 
 /// What was exported.
 struct ExportReport {
-  double exposure = 1.0;        ///< k, m2/cd
-  double clipped_share = 0.0;   ///< of the baked area
-  std::uint64_t triangles = 0;  ///< of all instances, as stored
+  double exposure = 1.0;              ///< k, m2/cd
+  double clipped_share = 0.0;         ///< of the baked area
+  std::uint64_t triangles = 0;        ///< of all instances, as stored
+  std::uint64_t baked_triangles = 0;  ///< those that received light
   std::uint64_t vertices = 0;
 };
 
-/// Gives every primitive instance that receives light its COLOR_0, an unlit material and, where it was subdivided, its
-/// new geometry; new data goes into `buffer`. A mesh stays where it is for its first baked node if only baked nodes use
-/// it; other nodes get copies. What was done goes into asset.extras.radiosity, warnings into `warnings`.
+/// Gives every primitive instance that receives light its COLOR_0, an unlit material (or what options.target says) and,
+/// where it was subdivided, its new geometry; new data goes into `buffer`. A mesh stays where it is for its first baked
+/// node if only baked nodes use it; other nodes get copies. What was done goes into asset.extras.radiosity, warnings
+/// into `warnings`.
 ExportReport export_scene(Document& document, BufferBuilder& buffer, const ImportedScene& scene,
                           const radiosity::Bake& bake, const Options& options, std::vector<Warning>& warnings);
 

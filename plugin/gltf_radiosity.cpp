@@ -8,12 +8,15 @@
 
 #include "core/bake.h"
 #include "plugin/check_options.h"
+#include "plugin/compress_geometry.h"
 #include "plugin/document.h"
+#include "plugin/export_colors.h"
 #include "plugin/export_scene.h"
 #include "plugin/firewall.h"
 #include "plugin/import_scene.h"
 #include "plugin/make_report.h"
 #include "plugin/phases.h"
+#include "plugin/strip_lights.h"
 #include "plugin/write_gltf.h"
 
 namespace gltf_radiosity {
@@ -29,6 +32,18 @@ radiosity::Refine refine_of(Refine refine) {
       break;
   }
   return radiosity::Refine::kAdaptive;
+}
+
+radiosity::LightParts parts_of(BakedLight light) {
+  switch (light) {
+    case BakedLight::kDirect:
+      return radiosity::LightParts::kDirect;
+    case BakedLight::kIndirect:
+      return radiosity::LightParts::kIndirect;
+    case BakedLight::kBoth:
+      break;
+  }
+  return radiosity::LightParts::kBoth;
 }
 
 radiosity::Visibility visibility_of(VisibilityMethod method) {
@@ -74,6 +89,7 @@ radiosity::BakeOptions bake_options(const Options& options, const ImportedScene&
   const std::uint64_t memory = options.max_memory > 0 ? options.max_memory : default_max_memory();
   result.row_cache_bytes = static_cast<std::size_t>(memory / 2);
   result.subdivide.max_elements = std::min<std::size_t>(result.subdivide.max_elements, memory / 4 / kBytesPerElement);
+  result.parts = parts_of(options.bake);
   result.residual = static_cast<float>(options.residual);
   result.max_patches = options.max_patches;
   result.threads = options.threads;
@@ -88,7 +104,7 @@ double patch_size_of(const Options& options, const ImportedScene& scene) {
                                                                 : radiosity::coarse_patch_size(scene.scene));
 }
 
-/// Import, bake and export: patches `document`, new data goes into `added`.
+/// Import, bake, export and compress: patches `document`, new data goes into `added`.
 Result<Report> bake_document(Document& document, BufferBuilder& added, const Options& options,
                              const radiosity::Progress& progress) {
   // Import.
@@ -98,6 +114,7 @@ Result<Report> bake_document(Document& document, BufferBuilder& added, const Opt
   const Result<ImportedScene> scene = import_scene(document, options, report.warnings);
   if (!scene) return scene.error();
   if (const auto wrong = radiosity::validate(scene->scene)) return Error{ErrorCode::kInternal, "", *wrong};
+  if (const auto free = check_attribute_is_free(document, *scene, options); !free) return free.error();
   add_figures(*scene, report);
   progress.update("import", 1.0);
 
@@ -111,7 +128,10 @@ Result<Report> bake_document(Document& document, BufferBuilder& added, const Opt
   // Export.
   progress.update("export", 0.0);
   add_figures(export_scene(document, added, *scene, bake, options, report.warnings), report);
+  add_figures(options, report);
+  if (options.strip_lights) strip_lights(document);
   progress.update("export", 1.0);
+  compress_geometry(document, added, options, report.warnings, progress);
   return report;
 }
 

@@ -30,6 +30,9 @@ enum class FitMethod { kLeastSquares, kInterpolate };
 enum class Metals { kDiffuse, kBlack };
 enum class LightUnits { kAuto, kSi, kBlender };
 enum class ColorType { kFloat, kU16, kU8 };
+enum class BakedLight { kBoth, kDirect, kIndirect };
+enum class Target { kUnlit, kKeep };
+enum class Engine { kAny, kThree, kBabylon, kGodot, kUnity, kUnreal, kBlender };
 
 /// The sun: a directional light at infinity.
 struct Sun {
@@ -47,7 +50,11 @@ struct Options {
   std::uint64_t max_vertices = 0;  ///< adaptive: or until there are this many; 0: those of the file and 16 000 more
   ErrorSpace error_space = ErrorSpace::kDisplay;       ///< adaptive: in which errors are compared to cut the worst
   std::vector<std::pair<std::string, int>> subdivide;  ///< node name -> times each triangle is cut in four, [0, 8]
+  // Nodes, by patterns of their names (*, ?, [...]), with everything below: select_nodes.h
+  std::vector<std::string> select;   ///< what receives light; empty: everything
+  std::vector<std::string> exclude;  ///< what does not
   // Light
+  BakedLight bake = BakedLight::kBoth;       ///< what comes straight from lamps, lights and sky, what surfaces reflect
   std::optional<std::array<double, 3>> sky;  ///< luminance of the open sky, cd/m2, linear Rec. 709
   std::string sky_file;               ///< or a Radiance HDR image of it, equirectangular, cd/m2; +x in its middle
   double sky_rotation_degrees = 0.0;  ///< turns the sky about y, towards larger azimuth
@@ -67,14 +74,23 @@ struct Options {
   std::uint64_t max_memory = 0;
   int threads = 0;  ///< 0: every core
   // Output
-  std::optional<double> exposure;  ///< k, m2/cd; none chooses automatically
-  ColorType color_type = ColorType::kFloat;
+  std::optional<double> exposure;       ///< k, m2/cd; none chooses automatically
+  Engine engine = Engine::kAny;         ///< chooses where the next two say nothing
+  std::optional<ColorType> color_type;  ///< none: the engine's; kFloat for any, or kU16 with `meshopt`
+  /// Colours of a primitive are scaled up to end at 1, its material's base colour factor down by as much. None: the
+  /// engine's; false for any.
+  std::optional<bool> scale_to_factor;
+  Target target = Target::kUnlit;  ///< kKeep: materials stay lit, and COLOR_0 is light without their base colour
+  std::string radiance_attribute;  ///< name of a custom attribute for the light of COLOR_0, not clamped; empty: none
+  bool strip_lights = false;       ///< leaves punctual and image based lights out of the output
+  int draco_bits = 0;              ///< colours within KHR_draco_mesh_compression, [8, 24]; 0 does not compress
+  bool meshopt = false;            ///< EXT_meshopt_compression; not together with Draco
 };
 
 /// Called from one thread at a time.
 struct Callbacks {
   /// `phase` is one of "read", "import", "subdivide", "patches", "direct", "sky", "solve", "gather", "fit", "refine",
-  /// "export", "write"; `done` in [0,1].
+  /// "export", "compress", "write"; `done` in [0,1].
   std::function<void(std::string_view phase, double done)> progress;
   /// Answer true to stop: the bake ends with ErrorCode::kCancelled within a second and writes nothing.
   std::function<bool()> cancelled;
@@ -118,7 +134,11 @@ struct Report {
   double glow_share = 0.0;         ///< of the emitted light: what gets none, [0,1]
   double exposure = 1.0;           ///< k, m2/cd
   double clipped_share = 0.0;      ///< of the baked area
-  std::string visibility;          ///< "raster" or "rays"
+  std::uint64_t baked_triangles = 0;  ///< of output_triangles: those that received light
+  std::string light;                  ///< "both", "direct" or "indirect"
+  std::string color_type;             ///< "float", "u16" or "u8"
+  std::string compression;            ///< "draco", "meshopt" or empty
+  std::string visibility;             ///< "raster" or "rays"
   std::vector<PhaseReport> phases;
   std::vector<Warning> warnings;
 };

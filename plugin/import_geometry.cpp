@@ -11,6 +11,7 @@
 
 #include "core/finite.h"
 #include "plugin/accessor_view.h"
+#include "plugin/assemble_triangles.h"
 #include "plugin/split_creases.h"
 
 namespace gltf_radiosity {
@@ -33,23 +34,6 @@ std::vector<glm::vec<Size, float>> read_vectors(const Document& document, std::s
   return vectors;
 }
 
-/// Triangles of a list of vertices drawn in `mode` (glTF 2.0, section 3.7.2.1).
-std::vector<glm::uvec3> assemble(const std::vector<std::uint32_t>& order, int mode) {
-  std::vector<glm::uvec3> triangles;
-  if (order.size() < 3) return triangles;
-  if (mode == TINYGLTF_MODE_TRIANGLES) {
-    triangles.reserve(order.size() / 3);
-    for (std::size_t i = 0; i + 2 < order.size(); i += 3) triangles.emplace_back(order[i], order[i + 1], order[i + 2]);
-  } else if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
-    for (std::size_t i = 0; i + 2 < order.size(); ++i) {
-      triangles.emplace_back(order[i], order[i + 1 + i % 2], order[i + 2 - i % 2]);
-    }
-  } else {
-    for (std::size_t i = 0; i + 2 < order.size(); ++i) triangles.emplace_back(order[i + 1], order[i + 2], order[0]);
-  }
-  return triangles;
-}
-
 Result<std::vector<glm::uvec3>> read_triangles(const Document& document, const tinygltf::Primitive& primitive,
                                                std::size_t vertex_count, const std::string& place) {
   std::vector<std::uint32_t> order;
@@ -63,7 +47,7 @@ Result<std::vector<glm::uvec3>> read_triangles(const Document& document, const t
     order.resize(vertex_count);
     for (std::size_t i = 0; i < vertex_count; ++i) order[i] = static_cast<std::uint32_t>(i);
   }
-  return assemble(order, primitive.mode);
+  return assemble_triangles(order, primitive.mode);
 }
 
 /// Adds weight times morph target (glTF 2.0, section 3.7.2.2).

@@ -32,13 +32,9 @@ glm::dmat4 parent_from_node(const tinygltf::Node& node) {
 
 /// extras.radiosity.subdivide; a warning if it is there but makes no sense.
 std::optional<std::int8_t> level_in_extras(const Json& node, std::size_t index, std::vector<Warning>& warnings) {
-  const Json* at = &node;
-  for (const char* key : {"extras", "radiosity", "subdivide"}) {
-    const auto it = at->find(key);
-    if (it == at->end()) return std::nullopt;
-    at = &*it;
-  }
-  const auto level = whole_number(*at);
+  const Json* subdivide = member_at(node, {"extras", "radiosity", "subdivide"});
+  if (subdivide == nullptr) return std::nullopt;
+  const auto level = whole_number(*subdivide);
   if (level && *level <= kMaxLevel) return static_cast<std::int8_t>(*level);
   warnings.push_back(
       {"bad-subdivide", place_of("nodes", index),

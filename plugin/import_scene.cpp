@@ -21,6 +21,7 @@
 #include "plugin/import_lights.h"
 #include "plugin/import_nodes.h"
 #include "plugin/import_sky.h"
+#include "plugin/select_nodes.h"
 
 namespace gltf_radiosity {
 namespace {
@@ -69,6 +70,9 @@ class SceneImporter {
   Result<Done> import_surfaces() {
     auto placed = place_nodes(document_, model_, options_.subdivide, warnings_);
     if (!placed) return placed.error();
+    auto receives = receiving_nodes(document_, placed->visible, options_, warnings_);
+    if (!receives) return receives.error();
+    node_receives_ = std::move(*receives);
     for (const std::uint32_t node : placed->visible) {
       if (auto done = import_node(*placed, node); !done) return done.error();
     }
@@ -121,7 +125,7 @@ class SceneImporter {
     instance.vertex_count = static_cast<std::uint32_t>(source.positions.size());
     instance.first_triangle = static_cast<std::uint32_t>(scene.triangles.size());
     instance.triangle_count = static_cast<std::uint32_t>(source.triangles.size());
-    instance.receives = !result_.materials[*material].unlit;
+    instance.receives = !result_.materials[*material].unlit && node_receives_[node] != 0;
     instance.source_vertex = source.source_vertex;
 
     // Where it stands.
@@ -320,8 +324,12 @@ class SceneImporter {
     if (result_.scene.triangles.empty()) return bad_input("", "nothing to bake: the scene has no triangles");
     const bool any = std::any_of(result_.instances.begin(), result_.instances.end(),
                                  [](const PrimitiveInstance& instance) { return instance.receives; });
-    if (!any) return bad_input("", "nothing to bake: every material of the scene is unlit");
-    return Done{};
+    if (any) return Done{};
+    const bool all_unlit =
+        std::all_of(result_.instances.begin(), result_.instances.end(),
+                    [&](const PrimitiveInstance& instance) { return result_.materials[instance.material].unlit; });
+    return bad_input("", all_unlit ? "nothing to bake: every material of the scene is unlit"
+                                   : "nothing to bake: no node with a material that is lit receives light");
   }
 
   void finish_detail() {
@@ -361,6 +369,7 @@ class SceneImporter {
   const Document& document_;
   const tinygltf::Model& model_;
   const Options& options_;
+  std::vector<std::uint8_t> node_receives_;
   std::vector<Warning>& warnings_;
   TextureLibrary textures_;
   ImportedScene result_;

@@ -18,7 +18,7 @@ struct PrimitiveInstance {
   std::uint32_t material = 0;                            ///< index into ImportedScene::materials
   std::uint32_t first_vertex = 0, vertex_count = 0;      ///< in Scene::positions
   std::uint32_t first_triangle = 0, triangle_count = 0;  ///< in Scene::triangles
-  bool receives = true;   ///< gets COLOR_0; otherwise it only blocks (KHR_materials_unlit)
+  bool receives = true;   ///< gets COLOR_0; otherwise it only casts and sends light (select_nodes.h) or is unlit
   bool mirrored = false;  ///< the node's world transform turns triangles over
   /// Which vertex of the glTF primitive each scene vertex is, [vertex_count]; empty means the same, in order. Differs
   /// for a primitive without normals, which glTF shades flat: a vertex between faces that crease is split.

@@ -98,6 +98,17 @@ const Json& array_of(const Json& root, const std::string& key) {
   return it == root.end() || !it->is_array() ? empty : *it;
 }
 
+const Json* member_at(const Json& root, std::initializer_list<const char*> path) {
+  const Json* at = &root;
+  for (const char* key : path) {
+    if (!at->is_object()) return nullptr;
+    const auto member = at->find(key);
+    if (member == at->end()) return nullptr;
+    at = &*member;
+  }
+  return at;
+}
+
 const Json* extension_of(const Json& object, const char* name) {
   const auto extensions = object.find("extensions");
   if (extensions == object.end() || !extensions->is_object()) return nullptr;

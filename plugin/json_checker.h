@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string>
 
@@ -17,6 +18,9 @@ const Json& array_of(const Json& root, const std::string& key);
 
 /// `object.extensions[name]`, or null if it has no such extension.
 const Json* extension_of(const Json& object, const char* name);
+
+/// What `path` leads to from `root`, member by member; null if one is missing.
+const Json* member_at(const Json& root, std::initializer_list<const char*> path);
 
 /// What checks of a glTF's tree are made of. The first error sticks: every call after it answers a harmless default, so
 /// that checks need not look after each one. `place` goes into errors.

@@ -13,6 +13,7 @@ namespace gltf_radiosity {
 void add_figures(const ImportedScene& scene, Report& report);
 void add_figures(const radiosity::BakeReport& bake, Report& report);
 void add_figures(const ExportReport& exported, Report& report);
+void add_figures(const Options& options, Report& report);
 
 /// What the user should know about the light.
 void add_warnings(const radiosity::BakeReport& bake, std::vector<Warning>& warnings);

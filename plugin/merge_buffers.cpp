@@ -6,6 +6,8 @@
 #include <string_view>
 #include <utility>
 
+#include "plugin/compress_meshopt.h"
+
 namespace gltf_radiosity {
 namespace {
 
@@ -16,24 +18,29 @@ std::size_t append_aligned(Bytes& bytes, std::span<const std::uint8_t> more) {
   return offset;
 }
 
+/// Where the data of a buffer is after the merge.
+struct NewPlace {
+  std::size_t buffer = 0, offset = 0;
+};
+
 /// Points `view` (a bufferView, or an extension of one that names a buffer) to the merged buffer.
-void rebase(Json& view, const std::vector<std::size_t>& offsets) {
-  const std::size_t buffer = view["buffer"].get<std::size_t>();
-  const std::size_t offset = offsets[buffer] + view.value("byteOffset", std::size_t{0});
-  view["buffer"] = 0;
+void rebase(Json& view, const std::vector<NewPlace>& places) {
+  const NewPlace& place = places[view["buffer"].get<std::size_t>()];
+  const std::size_t offset = place.offset + view.value("byteOffset", std::size_t{0});
+  view["buffer"] = place.buffer;
   if (offset != 0 || view.contains("byteOffset")) view["byteOffset"] = offset;
 }
 
-void rebase_views(Json& root, const std::vector<std::size_t>& offsets) {
+void rebase_views(Json& root, const std::vector<NewPlace>& places) {
   if (!root.contains("bufferViews")) return;
   for (Json& view : root["bufferViews"]) {
-    rebase(view, offsets);
+    rebase(view, places);
     if (!view.contains("extensions")) continue;
     for (Json& extension : view["extensions"]) {
       const bool names_buffer = extension.is_object() && extension.contains("buffer") &&
                                 extension["buffer"].is_number_unsigned() &&
-                                extension["buffer"].get<std::size_t>() < offsets.size();
-      if (names_buffer) rebase(extension, offsets);
+                                extension["buffer"].get<std::size_t>() < places.size();
+      if (names_buffer) rebase(extension, places);
     }
   }
 }
@@ -49,17 +56,18 @@ Bytes merge_buffers(Document& document, const BufferBuilder& added) {
   merged.reserve(total);
 
   // Bytes.
-  std::vector<std::size_t> offsets;
+  std::vector<NewPlace> places;
   for (std::size_t i = 0; i < document.buffers.size(); ++i) {
     const Bytes bytes = std::move(document.buffers[i]);
     const std::size_t length = root["buffers"][i]["byteLength"].get<std::size_t>();
-    offsets.push_back(append_aligned(merged, std::span(bytes).first(length)));
+    places.push_back({0, append_aligned(merged, std::span(bytes).first(length))});
   }
   document.buffers.clear();
-  offsets.push_back(append_aligned(merged, added.bytes()));
+  places.push_back({0, append_aligned(merged, added.bytes())});
+  places.push_back({1, 0});
 
   // Tree. The first buffer keeps its name and extras.
-  rebase_views(root, offsets);
+  rebase_views(root, places);
   Json buffer = root.contains("buffers") && !root["buffers"].empty() ? root["buffers"][0] : Json::object();
   buffer.erase("uri");
   buffer["byteLength"] = merged.size();
@@ -67,6 +75,11 @@ Bytes merge_buffers(Document& document, const BufferBuilder& added) {
     root.erase("buffers");
   } else {
     root["buffers"] = Json::array({std::move(buffer)});
+  }
+  if (added.decoded_size() > 0) {
+    Json decoded = {{"byteLength", added.decoded_size()}};
+    decoded["extensions"][kMeshoptExtension] = {{"fallback", true}};
+    root["buffers"].push_back(std::move(decoded));
   }
   return merged;
 }

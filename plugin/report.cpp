@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "plugin/make_report.h"
+#include "plugin/output_style.h"
 #include "plugin/report_lists.h"
 
 namespace gltf_radiosity {
@@ -55,6 +56,13 @@ void add_figures(const ExportReport& exported, Report& report) {
   report.output_vertices = exported.vertices;
   report.exposure = exported.exposure;
   report.clipped_share = exported.clipped_share;
+  report.baked_triangles = exported.baked_triangles;
+}
+
+void add_figures(const Options& options, Report& report) {
+  report.light = name_of(options.bake);
+  report.color_type = name_of(output_style(options).color_type);
+  report.compression = options.meshopt ? "meshopt" : options.draco_bits != 0 ? "draco" : "";
 }
 
 void add_warnings(const radiosity::BakeReport& bake, std::vector<Warning>& warnings) {
@@ -121,6 +129,10 @@ std::string to_json(const Report& report) {
                {"glowShare", report.glow_share},
                {"exposure", report.exposure},
                {"clippedShare", report.clipped_share},
+               {"bakedTriangles", report.baked_triangles},
+               {"light", report.light},
+               {"colorType", report.color_type},
+               {"compression", report.compression},
                {"visibility", report.visibility}};
 
   add_lists(report.phases, report.warnings, json);

@@ -10,7 +10,7 @@ namespace {
 using radiosity::Rgb;
 using radiosity::SurfacePlace;
 
-/// COLOR_0 that ends at white, give or take the rounding of 16 bits.
+/// COLOR_0 times the factor that ends at white, give or take the rounding of 16 bits.
 constexpr float kClippedFrom = 0.9999F;
 
 const PrimitiveInstance& instance_of(const ImportedScene& scene, std::uint32_t triangle) {
@@ -33,7 +33,8 @@ std::vector<std::uint8_t> baked_triangles(const ImportedScene& output) {
 }
 
 bool is_clipped(const ImportedScene& output, const SurfacePlace& place) {
-  const glm::vec4 color = output.detail->vertex_color(place.triangle, place.at);
+  const ImportedMaterial& material = output.materials[instance_of(output, place.triangle).material];
+  const glm::vec4 color = material.base_color_factor * output.detail->vertex_color(place.triangle, place.at);
   return std::max({color.x, color.y, color.z}) >= kClippedFrom;
 }
 

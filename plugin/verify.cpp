@@ -11,6 +11,7 @@
 #include "core/parallel.h"
 #include "core/verify/compare.h"
 #include "core/verify/path_tracer.h"
+#include "plugin/check_document.h"
 #include "plugin/check_options.h"
 #include "plugin/document.h"
 #include "plugin/error_picture.h"
@@ -39,13 +40,23 @@ Error in_file(const std::string& file, Error error) {
 
 /// asset.extras.radiosity.exposure, where the baker puts it.
 std::optional<double> written_exposure(const Json& root) {
-  const Json* member = &root;
-  for (const char* key : {"asset", "extras", "radiosity", "exposure"}) {
-    if (!member->is_object() || !member->contains(key)) return std::nullopt;
-    member = &member->at(key);
-  }
-  const double exposure = member->is_number() ? member->get<double>() : 0.0;
+  const Json* member = member_at(root, {"asset", "extras", "radiosity", "exposure"});
+  const double exposure = member != nullptr && member->is_number() ? member->get<double>() : 0.0;
   return exposure > 0.0 && std::isfinite(exposure) ? std::optional(exposure) : std::nullopt;
+}
+
+/// Only what shows all the light by itself can be compared with the truth.
+Result<Done> check_that_all_light_is_shown(const Json& root) {
+  const Json* light = member_at(root, {"asset", "extras", "radiosity", "light"});
+  if (light != nullptr && light->is_string() && *light != "both") {
+    return bad_input("asset.extras.radiosity.light",
+                     fmt::format("only {} light was baked: bakes of both are compared", light->get<std::string>()));
+  }
+  const Json* target = member_at(root, {"asset", "extras", "radiosity", "target"});
+  if (target != nullptr && *target == "keep") {
+    return bad_input("asset.extras.radiosity.target", "its materials are lit by the engine: unlit ones are compared");
+  }
+  return Done{};
 }
 
 Result<BothScenes> read_both(const std::string& input, const std::string& output, const Options& options,
@@ -62,6 +73,8 @@ Result<BothScenes> read_both(const std::string& input, const std::string& output
 
   const Result<Document> baked = read_document(output);
   if (!baked) return in_file(output, baked.error());
+  if (const auto checked = check_that_all_light_is_shown(baked->json); !checked)
+    return in_file(output, checked.error());
   std::vector<Warning> same_again;  // the source was warned about
   Result<ImportedScene> baked_scene = import_displayed(*baked, same_again);
   if (!baked_scene) return in_file(output, baked_scene.error());

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "tools/help_text.h"
 #include "tools/option_values.h"
@@ -29,6 +32,17 @@ constexpr Choices<SolverMethod, 2> kSolver{
     {{"progressive", SolverMethod::kProgressive}, {"gathering", SolverMethod::kGathering}}};
 constexpr Choices<ColorType, 3> kColorType{
     {{"float", ColorType::kFloat}, {"u16", ColorType::kU16}, {"u8", ColorType::kU8}}};
+
+constexpr Choices<BakedLight, 3> kBakedLight{
+    {{"direct", BakedLight::kDirect}, {"indirect", BakedLight::kIndirect}, {"both", BakedLight::kBoth}}};
+constexpr Choices<Target, 2> kTarget{{{"unlit", Target::kUnlit}, {"keep", Target::kKeep}}};
+constexpr Choices<Engine, 7> kEngine{{{"three", Engine::kThree},
+                                      {"babylon", Engine::kBabylon},
+                                      {"godot", Engine::kGodot},
+                                      {"unity", Engine::kUnity},
+                                      {"unreal", Engine::kUnreal},
+                                      {"blender", Engine::kBlender},
+                                      {"any", Engine::kAny}}};
 
 /// The --hemicube that --quality sets unless it is given itself.
 const Choices<int, 3> kQuality{{{"draft", 8}, {"medium", Options{}.hemicube}, {"high", 32}}};
@@ -70,20 +84,31 @@ void add_mesh_options(CLI::App& app, Options& options) {
        "Longest edge of the baked mesh, in metres, that adaptive starts from; auto (or 0) chooses one that suits the "
        "scene"},
       [&options](const std::string& text) { options.patch_size = text == "auto" ? 0.0 : parse_number(text, {}); });
-  app.add_option_function<std::vector<std::string>>(
-         "--subdivide",
-         [&options](const std::vector<std::string>& texts) {
-           try {
-             for (const std::string& text : texts) options.subdivide.push_back(parse_subdivide(text));
-           } catch (const BadValue& bad) {
-             throw CLI::ValidationError("--subdivide", bad.what());
-           }
-         },
-         "Cut each triangle of the node NAME in four, LEVEL times (0 to 8), whatever --refine and "
-         "--patch-size say; may be repeated")
-      ->type_name("NAME=LEVEL")
-      ->default_str("none")
-      ->allow_extra_args(false);
+  add_repeated(app,
+               {"--subdivide", "NAME=LEVEL", "none",
+                "Cut each triangle of the node NAME in four, LEVEL times (0 to 8), whatever --refine and --patch-size "
+                "say; may be repeated"},
+               [&options](const std::string& text) { options.subdivide.push_back(parse_subdivide(text)); });
+}
+
+void add_node_options(CLI::App& app, Options& options) {
+  app.option_defaults()->group("Nodes: what receives light");
+  add_repeated(app,
+               {"--select", "NAME", "none",
+                "Only nodes of this name receive light, and all below them; * and ? stand for what you like; may be "
+                "repeated. The others still cast shadows and send light"},
+               [&options](const std::string& text) { options.select.push_back(text); });
+  add_repeated(app,
+               {"--exclude", "NAME", "none",
+                "Nodes of this name receive no light, nor does what is below them; may be repeated"},
+               [&options](const std::string& text) { options.exclude.push_back(text); });
+}
+
+void add_bake_option(CLI::App& app, Options& options) {
+  add_choice(app, "--bake",
+             "What is baked: light straight from lamps, lights and sky (direct), what surfaces reflect (indirect), or "
+             "both",
+             options.bake, kBakedLight);
 }
 
 void add_quality(CLI::App& app, std::optional<int>& quality) {
@@ -133,6 +158,57 @@ void add_transport_options(CLI::App& app, Options& options, std::optional<int>& 
   add_threads_option(app, options);
 }
 
+void add_style(CLI::App& app, Options& options) {
+  add_choice(app, "--engine",
+             "Choose --color-type and --scale-to-factor as the engine needs them, unless they are given themselves",
+             options.engine, kEngine);
+  add(app,
+      {"--color-type", names_of(kColorType), "float",
+       "How COLOR_0 is stored: float, or normalised integers of 16 or 8 bits, the latter dithered. Unless given, u16 "
+       "with --meshopt"},
+      [&options](const std::string& text) { options.color_type = parse_choice(text, kColorType); });
+  CLI::Option* const scale = app.add_flag_callback(
+      "--scale-to-factor", [&options] { options.scale_to_factor = true; },
+      "For engines that store 8 bits: scale the colours of each primitive up to white, and the base colour factor of "
+      "its material down (default: off)");
+  app.add_flag_callback(
+         "--no-scale-to-factor", [&options] { options.scale_to_factor = false; },
+         "Do not, whatever --engine says (default: off)")
+      ->excludes(scale);
+  add_choice(
+      app, "--target",
+      "Materials show COLOR_0 and nothing else (unlit), or stay as they are, lit by the engine (keep): COLOR_0 is "
+      "then light without their colour",
+      options.target, kTarget);
+  add(app,
+      {"--radiance-attribute", "NAME", "none",
+       "Write the light of COLOR_0 a second time, as floats without a limit, into the custom attribute _NAME"},
+      [&options](const std::string& text) { options.radiance_attribute = parse_attribute_name(text); });
+  app.add_flag_callback(
+      "--strip-lights", [&options] { options.strip_lights = true; },
+      "Leave the lights of the file out of the output, punctual and image based ones: their light is in the colours "
+      "now "
+      "(default: off)");
+}
+
+/// What --draco without a number stands for.
+constexpr const char* kColorBits = "16";
+
+void add_compression(CLI::App& app, Options& options) {
+  CLI::Option* const draco =
+      add(app,
+          {"--draco", "[BITS]", "off",
+           fmt::format(
+               "Compress the triangles with Draco (KHR_draco_mesh_compression), colours of floats to BITS, 8 to 24, "
+               "{} unless given; integers stay exact",
+               kColorBits)},
+          [&options](const std::string& text) { options.draco_bits = parse_integer(text, 8, 24); });
+  app.add_flag_callback(
+         "--meshopt", [&options] { options.meshopt = true; },
+         "Compress the triangles with meshoptimizer (EXT_meshopt_compression); excludes --draco (default: off)")
+      ->excludes(draco);
+}
+
 void add_output_options(CLI::App& app, CommandLine& line) {
   Options& options = line.options;
   app.option_defaults()->group("Output");
@@ -148,8 +224,8 @@ void add_output_options(CLI::App& app, CommandLine& line) {
         options.exposure = 1.0 / (1.2 * std::exp2(parse_number(text, {-30.0, 30.0})));
       })
       ->excludes(exposure);
-  add_choice(app, "--color-type", "How COLOR_0 is stored: float, or normalised integers of 16 or 8 bits",
-             options.color_type, kColorType);
+  add_style(app, options);
+  add_compression(app, options);
   add_json_option(app, line.json);
   add_progress_option(app, line.progress);
 }
@@ -177,7 +253,9 @@ struct Parser {
     app.footer(std::string(kHelpFooter));
     add_files(app, line);
     add_mesh_options(app, line.options);
+    add_node_options(app, line.options);
     add_light_options(app, line.options);
+    add_bake_option(app, line.options);
     add_transport_options(app, line.options, quality);
     add_output_options(app, line);
     add_other_options(app);
@@ -198,11 +276,26 @@ void finish(Parser& parser) {
   if (line.json != "-") check_that_differs("--json", line.json, std::array{line.input, line.output});
 }
 
+/// Gives --draco its number where it has none: CLI11 would take the next argument for it, which may be a file.
+std::vector<const char*> with_color_bits(std::span<const char* const> arguments) {
+  std::vector<const char*> completed;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    completed.push_back(arguments[i]);
+    if (std::string_view(arguments[i]) != "--draco") continue;
+    const std::string_view next = i + 1 < arguments.size() ? arguments[i + 1] : "";
+    const bool is_number =
+        !next.empty() && std::all_of(next.begin(), next.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (!is_number) completed.push_back(kColorBits);
+  }
+  return completed;
+}
+
 }  // namespace
 
 std::variant<CommandLine, Ending> parse_command_line(std::span<const char* const> arguments) {
   Parser parser;
-  if (auto ending = parse_with(parser.app, arguments, [&parser] { finish(parser); })) return std::move(*ending);
+  const std::vector<const char*> completed = with_color_bits(arguments);
+  if (auto ending = parse_with(parser.app, completed, [&parser] { finish(parser); })) return std::move(*ending);
   return std::move(parser.line);
 }
 

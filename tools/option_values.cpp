@@ -101,6 +101,16 @@ std::pair<std::string, int> parse_subdivide(std::string_view text) {
   return {std::string(text.substr(0, equals)), parse_integer(text.substr(equals + 1), 0, 8)};
 }
 
+std::string parse_attribute_name(std::string_view text) {
+  const auto is_allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  if (text.empty() || text.size() > 64 || !std::all_of(text.begin(), text.end(), is_allowed)) {
+    throw BadValue("'" + std::string(text) + "' is not made of 1 to 64 letters, digits and underscores");
+  }
+  return std::string(text);
+}
+
 Sun parse_sun(std::string_view text) {
   const auto [elevation, azimuth, lux] = parse_triple(text, {Range{-90.0, 90.0}, Range{-360.0, 360.0}, Range{}});
   return {elevation, azimuth, lux};

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "tools/exit_code.h"
 
@@ -50,6 +51,20 @@ CLI::Option* add(CLI::App& app, const OptionText& text, const std::function<void
       ->type_name(text.type)
       ->default_str(text.preset)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+}
+
+CLI::Option* add_repeated(CLI::App& app, const OptionText& text, const std::function<void(const std::string&)>& read) {
+  const auto callback = [name = text.name, read](const std::vector<std::string>& values) {
+    try {
+      for (const std::string& value : values) read(value);
+    } catch (const BadValue& bad) {
+      throw CLI::ValidationError(name, bad.what());
+    }
+  };
+  return app.add_option_function<std::vector<std::string>>(text.name, callback, text.description)
+      ->type_name(text.type)
+      ->default_str(text.preset)
+      ->allow_extra_args(false);
 }
 
 void add_light_options(CLI::App& app, Options& options) {

@@ -23,6 +23,9 @@ struct OptionText {
 /// Adds an option whose value `read` takes; what it throws as BadValue becomes a message that names the option.
 CLI::Option* add(CLI::App& app, const OptionText& text, const std::function<void(const std::string&)>& read);
 
+/// Adds an option that may be given several times; `read` takes each value.
+CLI::Option* add_repeated(CLI::App& app, const OptionText& text, const std::function<void(const std::string&)>& read);
+
 /// Adds an option that chooses one of the named values.
 template <typename Value, std::size_t count>
 void add_choice(CLI::App& app, const std::string& name, const std::string& description, Value& value,

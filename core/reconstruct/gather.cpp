@@ -40,7 +40,7 @@ Gathered Gatherer::at(const SurfacePoint& point, std::uint32_t index) const {
   for (std::size_t c = 0; c < delta.size(); ++c) {
     const std::uint32_t triangle = buffer.triangle[c];
     if (triangle == kNothing) {
-      if (sky.is_constant()) luminance += delta[c] * sky.constant();
+      if (sees_sources && sky.is_constant()) luminance += delta[c] * sky.constant();
       continue;
     }
     const std::uint32_t patch = patches.patch_at(triangle, buffer.barycentrics[c], buffer.back[c] != 0);
@@ -51,8 +51,9 @@ Gathered Gatherer::at(const SurfacePoint& point, std::uint32_t index) const {
     }
   }
   if (gathered.back_share > kBuriedShare) return gathered;
-  if (!sky.is_constant()) luminance += luminance_of_sky(sky, hemicube, viewpoint, buffer);
-  gathered.irradiance = irradiance_of_luminance(luminance, 1.0F) + direct.at(point, index);
+  if (sees_sources && !sky.is_constant()) luminance += luminance_of_sky(sky, hemicube, viewpoint, buffer);
+  gathered.irradiance = irradiance_of_luminance(luminance, 1.0F);
+  if (sees_sources) gathered.irradiance += direct.at(point, index);
   return gathered;
 }
 

@@ -35,6 +35,7 @@ struct Gatherer {
   const SmoothSky& sky;
   std::span<const Rgb> radiosity;  ///< solved, [patch_count], lm/m2
   float offset;                    ///< metres that a hemicube stands off its surface, surface_offset()
+  bool sees_sources = true;        ///< whether the sky and what `direct` knows shine on points
 
   /// `index` picks the twist and the place in the low-discrepancy sequences.
   Gathered at(const SurfacePoint& point, std::uint32_t index) const;

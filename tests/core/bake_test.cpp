@@ -127,6 +127,36 @@ TEST(Bake, IsNearlyTheSameForBothFits) {
   EXPECT_LT(difference(least_squares, bake(test::cornell_box(), options, {})).rms, 0.06);
 }
 
+TEST(Bake, DirectAndIndirectLightAddUpToBoth) {
+  Scene scene = test::cornell_box();
+  scene.lights = {{.kind = Light::Kind::kPoint, .position = {2.0F, 2.0F, 2.0F}}};
+  scene.sky.luminance = Rgb(0.2F);
+  std::vector<Bake> parts;
+  for (const LightParts part : {LightParts::kBoth, LightParts::kDirect, LightParts::kIndirect}) {
+    BakeOptions options = quick(2.0F);
+    options.fit = Fit::kInterpolate;  // linear in the samples; least squares cut off what is negative
+    options.parts = part;
+    parts.push_back(bake(scene, options, {}));
+  }
+  double direct = 0.0, indirect = 0.0;
+  for (std::size_t v = 0; v < parts[0].irradiance.size(); ++v) {
+    const Rgb sum = parts[1].irradiance[v] + parts[2].irradiance[v];
+    EXPECT_LT(glm::length(sum - parts[0].irradiance[v]), 1e-4F * (1.0F + glm::length(sum))) << v;
+    direct += double{luminance_of(parts[1].irradiance[v])};
+    indirect += double{luminance_of(parts[2].irradiance[v])};
+  }
+  EXPECT_GT(direct, 0.0);
+  EXPECT_GT(indirect, 0.1 * direct);
+}
+
+TEST(Bake, HasNoIndirectLightWhereNothingReflects) {
+  Scene scene = test::box_room({1, 2, 3}, {.reflectance = Rgb(0.0F), .emission = Rgb(1.0F)});
+  scene.lights = {{.kind = Light::Kind::kPoint, .position = {0.4F, 1.3F, 1.1F}}};
+  BakeOptions options = quick(1.0F);
+  options.parts = LightParts::kIndirect;
+  for (const Rgb& irradiance : bake(scene, options, {}).irradiance) EXPECT_LT(luminance_of(irradiance), 1e-5F);
+}
+
 TEST(Bake, IsTheSameForBothSolvers) {
   for (const auto& [scene, patch_size] : {std::pair(test::cornell_box(), 0.05F), {test::occluder(), 0.25F}}) {
     BakeOptions options = quick(patch_size);

@@ -1,4 +1,4 @@
-// A page with three.js in headless Chromium, without a network: every request is answered from files.
+// A page with three.js or Babylon.js in headless Chromium, without a network: every request is answered from files.
 import { execFileSync } from 'node:child_process'
 import fs from 'node:fs'
 import path from 'node:path'
@@ -7,7 +7,7 @@ import { fileURLToPath } from 'node:url'
 const here = path.dirname(fileURLToPath(import.meta.url))
 const packages = path.join(here, '..', 'node_modules')
 const types = { '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.glb': 'model/gltf-binary',
-  '.gltf': 'model/gltf+json', '.png': 'image/png' }
+  '.gltf': 'model/gltf+json', '.png': 'image/png', '.wasm': 'application/wasm' }
 const origin = 'http://viewer.test'
 
 function chromium_path() {
@@ -23,9 +23,9 @@ function chromium_path() {
 function file_of(url) {
   const { pathname } = new URL(url)
   const name = decodeURIComponent(pathname)
-  if (name.startsWith('/three/')) return path.join(packages, name)
+  if (/^\/(three|babylonjs|babylonjs-loaders)\//.test(name)) return path.join(packages, name)
   if (name.startsWith('/file/')) return name.slice('/file'.length)
-  return path.join(here, name === '/' ? 'viewer.html' : name)
+  return path.join(here, name)
 }
 
 export const url_of = (file) => `${origin}/file${path.resolve(file).split('/').map(encodeURIComponent).join('/')}`
@@ -37,8 +37,8 @@ async function answer(route) {
   return route.fulfill({ body: fs.readFileSync(file), contentType })
 }
 
-// { page, close }: the viewer is loaded. Drawing is done by SwiftShader, so that no graphics card is needed.
-export async function open_viewer() {
+// { page, close }: the viewer is loaded, three.js's or the one named. Drawing is done by SwiftShader, so that no graphics card is needed.
+export async function open_viewer(name = 'viewer.html') {
   const playwright = await import('playwright-core').catch(() => {
     throw new Error('the browser driver is missing: run `npm ci` in the folder tests')
   })
@@ -51,7 +51,7 @@ export async function open_viewer() {
   page.on('pageerror', (error) => problems.push(`${error}`))
   page.on('console', (message) => { if (message.type() === 'error') problems.push(message.text()) })
   await page.route('**/*', answer)
-  await page.goto(`${origin}/`)
+  await page.goto(`${origin}/${name}`)
   await page.waitForFunction(() => window.viewer !== undefined, null, { timeout: 60_000 }).catch((reason) => {
     throw new Error(`the viewer did not start: ${[...problems, reason].join('\n')}`)
   })

@@ -1,6 +1,7 @@
 // Runs in the page: draws a glTF as three.js shows it, without tone mapping.
 import * as THREE from 'three'
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js'
+import { DRACOLoader } from 'three/addons/loaders/DRACOLoader.js'
 import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js'
 
 const { renderer, canvas } = (() => {
@@ -10,7 +11,8 @@ const { renderer, canvas } = (() => {
   return { renderer, canvas }
 })()
 
-const load = (url) => new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).loadAsync(url)
+const draco = new DRACOLoader().setDecoderPath('/three/examples/jsm/libs/draco/gltf/')
+const load = (url) => new GLTFLoader().setDRACOLoader(draco).setMeshoptDecoder(MeshoptDecoder).loadAsync(url)
 
 // The camera that `view` describes ({ eye, at, fov }), else the file's first one, else one that sees everything.
 function camera_for(gltf, { width, height, eye, at, fov = 50 }) {

@@ -38,6 +38,19 @@ TEST(CheckOptions, TheMeshHasASize) {
   EXPECT_EQ(refused([](Options& o) { o.subdivide = {{"floor", 8}, {"wall", 0}}; }), "");
 }
 
+TEST(CheckOptions, CompressionIsOneOfTwo) {
+  for (const int bits : {7, 25, -1}) EXPECT_EQ(refused([&](Options& o) { o.draco_bits = bits; }), "--draco") << bits;
+  for (const int bits : {0, 8, 24}) EXPECT_EQ(refused([&](Options& o) { o.draco_bits = bits; }), "") << bits;
+  EXPECT_EQ(refused([](Options& o) { o.draco_bits = 16, o.meshopt = true; }), "--meshopt");
+}
+
+TEST(CheckOptions, CustomAttributesHavePlainNames) {
+  EXPECT_EQ(refused([](Options& o) { o.radiance_attribute = "_LIGHT_2"; }), "");
+  for (const char* name : {"a b", "COLOR-0", "\"", "ä"}) {
+    EXPECT_EQ(refused([&](Options& o) { o.radiance_attribute = name; }), "--radiance-attribute") << name;
+  }
+}
+
 TEST(CheckOptions, LightIsNotNegative) {
   EXPECT_EQ(refused([](Options& o) { o.sky = {1.0, -0.5, 1.0}; }), "--sky");
   EXPECT_EQ(refused([](Options& o) { o.sky_file = "sky.hdr"; }), "");

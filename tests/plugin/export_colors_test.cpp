@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "core/photometry.h"
 #include "tests/plugin/bake_by_hand.h"
@@ -179,14 +180,14 @@ TEST(ExportColors, WhatDoesNotReceiveHasNoColours) {
 std::vector<float> stored(const VertexColors& colors, float k, ColorType type, Json* accessor = nullptr) {
   Document document;
   BufferBuilder added;
-  const std::size_t index = export_color_accessor(document, added, colors, k, type);
+  const std::size_t index = export_color_accessor(document, added, colors, radiosity::Rgb(k), type);
   document.buffers.push_back(added.bytes());
   if (accessor != nullptr) *accessor = document.json["accessors"][index];
   return as_floats(read_accessor(document, index));
 }
 
-const VertexColors kTwo = {{{0.5F, 4.0F, 0.25F, 0.75F}, {-1.0F, std::numeric_limits<float>::quiet_NaN(), 1.0F, 2.0F}},
-                           {}};
+const VertexColors kTwo = {
+    {{0.5F, 4.0F, 0.25F, 0.75F}, {-1.0F, std::numeric_limits<float>::quiet_NaN(), 1.0F, 2.0F}}, {}, {1, 2}};
 
 TEST(ExportColors, ColoursAreExposedAndClamped) {
   const std::vector<float> expected = {0.25F, 1.0F, 0.125F, 0.75F, 0.0F, 0.0F, 0.5F, 1.0F};
@@ -207,8 +208,61 @@ TEST(ExportColors, EveryTypeIsFourLinearComponents) {
 
   const std::vector<float> u8 = stored(kTwo, 1.0F, ColorType::kU8, &accessor);
   EXPECT_EQ(accessor["componentType"], 5121);
-  EXPECT_NEAR(u8[0], 0.5F, 0.51F / 255.0F);
+  EXPECT_NEAR(u8[0], 0.5F, 1.01F / 255.0F);
   EXPECT_EQ(u8[1], 1.0F);
+}
+
+TEST(ExportColors, EightBitsAreDitheredAboutTheirValue) {
+  constexpr float kBetween = 10.25F / 255.0F, kOnAStep = 20.0F / 255.0F;
+  VertexColors colors;
+  for (std::uint32_t i = 0; i < 4000; ++i) {
+    colors.unexposed.emplace_back(kBetween, kOnAStep, 0.0F, 1.0F);
+    colors.places.push_back(i);
+  }
+  const std::vector<float> shown = stored(colors, 1.0F, ColorType::kU8);
+  double sum = 0.0;
+  for (std::size_t v = 0; v < 4000; ++v) {
+    sum += static_cast<double>(shown[4 * v]);
+    EXPECT_LT(std::abs(shown[4 * v] - kBetween), 1.0F / 255.0F);
+    EXPECT_NEAR(shown[4 * v + 1], kOnAStep, 1e-6F) << "what lies on a step stays";
+    EXPECT_EQ(shown[4 * v + 2], 0.0F);
+    EXPECT_EQ(shown[4 * v + 3], 1.0F);
+  }
+  EXPECT_NEAR(sum / 4000.0, static_cast<double>(kBetween), 0.03 / 255.0);
+}
+
+TEST(ExportColors, VerticesAtOnePlaceAreDitheredAlike) {
+  Square square;
+  square.levels = 2;
+  const VertexColors colors = square.colors();
+  std::set<std::uint32_t> places(colors.places.begin(), colors.places.end());
+  EXPECT_EQ(places.size(), 25U) << "25 positions";
+  VertexColors seam;
+  for (int i = 0; i < 50; ++i) {
+    seam.unexposed.emplace_back(0.3F, 0.6F, 0.1F, 1.0F);
+    seam.places.push_back(colors.places[3]);
+  }
+  const std::vector<float> shown = stored(seam, 1.0F, ColorType::kU8);
+  for (std::size_t v = 0; v < 50; ++v) EXPECT_EQ(shown[4 * v], shown[0]);
+}
+
+TEST(ExportColors, TheBrightestOfEachBandIsFound) {
+  const VertexColors colors = {{{0.5F, 0.0F, 4.0F, 1.0F}, {0.25F, 0.0F, 1.0F, 1.0F}}, {}, {}};
+  EXPECT_EQ(brightest(colors, 0.5F), radiosity::Rgb(0.25F, 1.0F, 1.0F));
+}
+
+TEST(ExportColors, TheRadianceIsNotClamped) {
+  Document document;
+  BufferBuilder added;
+  export_radiance_accessor(document, added, {{{0.5F, 4.0F, 8.0F, 1.0F}}, {}, {}}, 2.0F);
+  document.buffers.push_back(added.bytes());
+  EXPECT_EQ(as_floats(read_accessor(document, 0)), (std::vector<float>{1.0F, 8.0F, 16.0F}));
+  EXPECT_EQ(document.json["accessors"][0]["type"], "VEC3");
+  Options options;
+  for (const char* name : {"LIGHT", "_LIGHT"}) {
+    options.radiance_attribute = name;
+    EXPECT_EQ(radiance_semantic(options), "_LIGHT");
+  }
 }
 
 }  // namespace

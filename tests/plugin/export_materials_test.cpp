@@ -65,7 +65,9 @@ TEST(ExportMaterials, AFactorOfOneIsLeftOut) {
 TEST(ExportMaterials, TheDefaultMaterialBecomesUnlitToo) {
   Document document;
   document.json = Json::object();
-  EXPECT_EQ(export_unlit_material(document, imported(std::nullopt), {}), 0U);
+  std::set<std::size_t> referenced;
+  const Json unlit = unlit_material(Json::object(), imported(std::nullopt));
+  EXPECT_EQ(export_material(document, imported(std::nullopt), unlit, referenced), 0U);
   EXPECT_EQ(document.json["materials"][0]["extensions"], Json::parse(R"({"KHR_materials_unlit": {}})"));
   EXPECT_EQ(document.json["materials"][0]["pbrMetallicRoughness"]["metallicFactor"], 0.0);
 }
@@ -73,27 +75,35 @@ TEST(ExportMaterials, TheDefaultMaterialBecomesUnlitToo) {
 TEST(ExportMaterials, AMaterialNobodyElseUsesIsReplaced) {
   Document document;
   document.json["materials"] = Json::parse(R"([{"name": "a"}, {"name": "b"}])");
-  EXPECT_EQ(export_unlit_material(document, imported(1), {0}), 1U);
+  std::set<std::size_t> referenced = {0};
+  EXPECT_EQ(export_material(document, imported(1), {{"name", "b, baked"}}, referenced), 1U);
   EXPECT_EQ(document.json["materials"].size(), 2U);
-  EXPECT_EQ(document.json["materials"][1]["name"], "b");
-  EXPECT_TRUE(document.json["materials"][1]["extensions"].contains("KHR_materials_unlit"));
+  EXPECT_EQ(document.json["materials"][1]["name"], "b, baked");
+  // The place is taken: a second version is appended.
+  EXPECT_EQ(export_material(document, imported(1), {{"name", "b, dimmed"}}, referenced), 2U);
+  EXPECT_EQ(document.json["materials"][1]["name"], "b, baked");
 }
 
 TEST(ExportMaterials, AMaterialSomebodyElseUsesIsCloned) {
   Document document;
   document.json["materials"] = Json::parse(R"([{"name": "a"}])");
-  EXPECT_EQ(export_unlit_material(document, imported(0), {0}), 1U);
+  std::set<std::size_t> referenced = {0};
+  EXPECT_EQ(export_material(document, imported(0), {{"name", "a, baked"}}, referenced), 1U);
   EXPECT_EQ(document.json["materials"][0], Json({{"name", "a"}}));
-  EXPECT_EQ(document.json["materials"][1]["name"], "a");
+  EXPECT_EQ(document.json["materials"][1]["name"], "a, baked");
 }
 
-TEST(ExportMaterials, UnlitIsUsedAndNotRequired) {
-  Document document;
-  document.json["extensionsUsed"] = Json::array({"KHR_lights_punctual"});
-  export_unlit_material(document, imported(std::nullopt), {});
-  export_unlit_material(document, imported(std::nullopt), {});
-  EXPECT_EQ(document.json["extensionsUsed"], Json({"KHR_lights_punctual", "KHR_materials_unlit"}));
-  EXPECT_FALSE(document.json.contains("extensionsRequired"));
+TEST(ExportMaterials, AFactorThatColoursWereDividedByComesBack) {
+  const Json unlit = unlit_material(kEverything, imported(0, 0.75F), {0.5F, 0.25F, 1.0F});
+  EXPECT_EQ(unlit["pbrMetallicRoughness"]["baseColorFactor"], Json({0.5, 0.25, 1.0, 0.75}));
+}
+
+TEST(ExportMaterials, AMaterialThatStaysLitIsOnlyDimmed) {
+  ImportedMaterial material = imported(0);
+  material.base_color_factor = {0.5F, 1.0F, 0.25F, 0.5F};
+  Json expected = kEverything;
+  expected["pbrMetallicRoughness"]["baseColorFactor"] = {0.25, 1.0, 0.0625, 0.5};
+  EXPECT_EQ(dimmed_material(kEverything, material, {0.5F, 1.0F, 0.25F}), expected);
 }
 
 TEST(ExportMaterials, EveryKindOfReferenceIsFound) {

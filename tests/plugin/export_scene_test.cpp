@@ -272,5 +272,89 @@ TEST(ExportScene, CountsAreThoseOfTheFile) {
   EXPECT_EQ(report.vertices, 18U);
 }
 
+/// Two squares of one dark red material, lit alike.
+GltfBuilder two_dark_squares() {
+  GltfBuilder builder;
+  PrimitiveParts parts = unit_square();
+  parts.material = builder.add_material({{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 0.125, 1.0}}}}});
+  builder.add_node(builder.add_mesh(parts));
+  builder.add_node(builder.add_mesh(parts));
+  return builder;
+}
+
+TEST(ExportScene, ColoursScaledUpComeDownWithTheFactor) {
+  Options options;
+  options.exposure = 1.0;
+  options.scale_to_factor = true;
+  const Exported scene = exported(two_dark_squares(), 0, options);
+  EXPECT_EQ(scene.colors(0), std::vector<float>(16, 1.0F));
+  const Json& factor = scene.material_of(0)["pbrMetallicRoughness"]["baseColorFactor"];
+  EXPECT_NEAR(factor[0].get<float>(), 0.5F, 1e-6F);
+  EXPECT_NEAR(factor[2].get<float>(), 0.125F, 1e-6F);
+  EXPECT_EQ(scene.primitive(0)["material"], scene.primitive(1)["material"]) << "alike, so they still share it";
+  EXPECT_EQ(scene.after.json["materials"].size(), 1U);
+}
+
+TEST(ExportScene, MaterialsThatAreKeptStayAsTheyWere) {
+  Options options;
+  options.target = Target::kKeep;
+  options.exposure = 1.0;
+  GltfBuilder builder = two_dark_squares();
+  builder.json["materials"][0]["emissiveFactor"] = {1.0, 1.0, 1.0};
+  const Exported scene = exported(builder, 0, options);
+  EXPECT_EQ(scene.after.json["materials"], scene.before.json["materials"]);
+  EXPECT_EQ(scene.primitive(0)["material"], 0);
+  EXPECT_FALSE(scene.after.json.contains("extensionsUsed"));
+  EXPECT_EQ(scene.after.json["asset"]["extras"]["radiosity"]["target"], "keep");
+  for (const float value : scene.colors(0)) EXPECT_NEAR(value, 1.0F, 1e-6F) << "light without colour and emission";
+}
+
+TEST(ExportScene, KeptMaterialsCanBeScaledToo) {
+  Options options;
+  options.target = Target::kKeep;
+  options.exposure = 0.5;
+  options.scale_to_factor = true;
+  const Exported scene = exported(two_dark_squares(), 0, options);
+  EXPECT_FALSE(is_unlit(scene.material_of(0)));
+  EXPECT_NEAR(scene.material_of(0)["pbrMetallicRoughness"]["baseColorFactor"][0].get<float>(), 0.25F, 1e-6F);
+  EXPECT_EQ(scene.colors(0), std::vector<float>(16, 1.0F));
+}
+
+TEST(ExportScene, IndirectLightHoldsNoEmission) {
+  Options options;
+  options.bake = BakedLight::kIndirect;
+  options.exposure = 0.25;
+  GltfBuilder builder = two_dark_squares();
+  builder.json["materials"][0]["emissiveFactor"] = {1.0, 1.0, 1.0};
+  const Exported scene = exported(builder, 0, options);
+  EXPECT_NEAR(scene.colors(0)[0], 0.125F, 1e-6F);
+  EXPECT_EQ(scene.after.json["asset"]["extras"]["radiosity"]["light"], "indirect");
+}
+
+TEST(ExportScene, TheRadianceStandsBesideTheColours) {
+  Options options;
+  options.exposure = 8.0;
+  options.radiance_attribute = "LIGHT";
+  const Exported scene = exported(two_dark_squares(), 0, options);
+  const auto accessor = scene.primitive(0)["attributes"]["_LIGHT"].get<std::size_t>();
+  const std::vector<float> light = as_floats(read_accessor(scene.after, accessor));
+  EXPECT_NEAR(light[0], 4.0F, 1e-5F);
+  EXPECT_NEAR(light[2], 1.0F, 1e-5F);
+  EXPECT_EQ(scene.colors(0)[0], 1.0F);
+}
+
+TEST(ExportScene, CopiesOfAMaterialHaveNamesOfTheirOwn) {
+  Options options;
+  options.exposure = 1.0;
+  options.scale_to_factor = true;
+  GltfBuilder builder = two_dark_squares();
+  builder.json["materials"][0]["name"] = "red";
+  const std::size_t old_colors = builder.add_accessor(std::vector<glm::vec4>(4, {0.5F, 0.5F, 0.5F, 1.0F}));
+  builder.json["meshes"][1]["primitives"][0]["attributes"]["COLOR_0"] = old_colors;
+  const Exported scene = exported(builder, 0, options);
+  EXPECT_EQ(scene.material_of(0)["name"], "red");
+  EXPECT_EQ(scene.material_of(1)["name"], "red.2");
+}
+
 }  // namespace
 }  // namespace gltf_radiosity

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -140,6 +141,35 @@ TEST(CommandLine, ReadsTheOptionsOfTheOutput) {
   EXPECT_EQ(parse_bake({"--exposure", "auto"}).options.exposure, std::nullopt);
 }
 
+TEST(CommandLine, DracoTakesANumberOrNone) {
+  EXPECT_EQ(parse_bake({}).options.draco_bits, 0);
+  EXPECT_EQ(parse_bake({"--draco"}).options.draco_bits, 16);
+  EXPECT_EQ(parse_bake({"--draco", "12"}).options.draco_bits, 12);
+  EXPECT_EQ(parse_bake({"--draco=14"}).options.draco_bits, 14);
+  EXPECT_EQ(parse_bake({"--draco", "--threads", "2"}).options.draco_bits, 16);
+  const std::array arguments = {"gltf-radiosity", "--draco", "in.glb", "out.glb"};
+  EXPECT_TRUE(std::holds_alternative<CommandLine>(parse_command_line(arguments)));
+}
+
+TEST(CommandLine, ReadsHowTheLightIsWritten) {
+  const Options options = parse_bake({"--engine", "godot", "--no-scale-to-factor", "--target", "keep", "--strip-lights",
+                                      "--radiance-attribute", "LIGHT", "--meshopt", "--bake", "indirect"})
+                              .options;
+  EXPECT_EQ(options.engine, Engine::kGodot);
+  EXPECT_EQ(options.scale_to_factor, false);
+  EXPECT_EQ(parse_bake({"--scale-to-factor"}).options.scale_to_factor, true);
+  EXPECT_EQ(options.target, Target::kKeep);
+  EXPECT_TRUE(options.strip_lights && options.meshopt);
+  EXPECT_EQ(options.radiance_attribute, "LIGHT");
+  EXPECT_EQ(options.bake, BakedLight::kIndirect);
+}
+
+TEST(CommandLine, NodesAreNamedAsOftenAsOneLikes) {
+  const Options options = parse_bake({"--select", "a*", "--exclude", "b", "--select", "c"}).options;
+  EXPECT_EQ(options.select, (std::vector<std::string>{"a*", "c"}));
+  EXPECT_EQ(options.exclude, std::vector<std::string>{"b"});
+}
+
 TEST(CommandLine, TakesTheExposureOfACamera) {
   EXPECT_DOUBLE_EQ(parse_bake({"--ev100", "0"}).options.exposure.value_or(0.0), 1.0 / 1.2);
   EXPECT_DOUBLE_EQ(parse_bake({"--ev100", "15"}).options.exposure.value_or(0.0), 1.0 / (1.2 * 32768.0));
@@ -189,6 +219,14 @@ TEST(CommandLine, EveryMistakeNamesTheOption) {
       {"--exposure", "1e999"},
       {"--ev100", "bright"},
       {"--color-type", "u9"},
+      {"--draco", "7"},
+      {"--draco", "25"},
+      {"--draco", "--meshopt"},
+      {"--bake", "all"},
+      {"--engine", "quake"},
+      {"--target", "lit"},
+      {"--radiance-attribute", "a b"},
+      {"--radiance-attribute", ""},
       {"--quality", "ultra"},
       {"--progress", "loud"},
       {"--config", "no/such.toml"},
@@ -216,7 +254,7 @@ TEST(CommandLine, WantsTwoFilesAndNoMore) {
 TEST(CommandLine, TakesOptionsFromAFile) {
   const ConfigFile config(
       "patch-size = 0.5\nsky = [1, 2.5, 3]\nsubdivide = [\"A=1\", \"B=2\"]\nno-default-sky = true\nhemicube = 8\n"
-      "max-patches = \"auto\"\nquality = \"high\"\n");
+      "max-patches = \"auto\"\nquality = \"high\"\ndraco = 12\nselect = [\"a*\", \"b\"]\nstrip-lights = true\n");
   const Options options = parse_bake({"--config", config.path(), "--patch-size", "0.25"}).options;
   EXPECT_EQ(options.patch_size, 0.25);
   EXPECT_EQ(options.sky, (std::array{1.0, 2.5, 3.0}));
@@ -224,6 +262,9 @@ TEST(CommandLine, TakesOptionsFromAFile) {
   EXPECT_FALSE(options.default_sky);
   EXPECT_EQ(options.hemicube, 8);
   EXPECT_EQ(options.max_patches, 0);
+  EXPECT_EQ(options.draco_bits, 12);
+  EXPECT_EQ(options.select, (std::vector<std::string>{"a*", "b"}));
+  EXPECT_TRUE(options.strip_lights);
 }
 
 TEST(CommandLine, RefusesAFileWithMistakes) {
