@@ -37,12 +37,14 @@ void walk(const Json& value, const std::string& key, const Visit& visit) {
 
 }  // namespace
 
-Json unlit_material(const Json& source, const ImportedMaterial& material, const radiosity::Rgb& factor) {
+Json unlit_material(const Json& source, const ImportedMaterial& material, const radiosity::Rgb& factor,
+                    ShownTexture texture) {
   Json unlit = source.is_object() ? source : Json::object();
 
   // Base colour: COLOR_0 holds the source's factor.
   Json& pbr = unlit["pbrMetallicRoughness"];
   if (!pbr.is_object()) pbr = Json::object();
+  if (texture == ShownTexture::kEmissive) pbr["baseColorTexture"] = source["emissiveTexture"];
   pbr.erase("metallicRoughnessTexture");
   pbr.erase("baseColorFactor");
   const glm::vec4 left(factor, material.base_color_factor.a);

@@ -97,14 +97,14 @@ Json& primitive_json(Json& root, const BakedPrimitive& baked) {
 
 /// The material of a baked primitive: the source's JSON -> the output's; none if it stays as it is.
 std::optional<Json> baked_material(const Json& source, const ImportedMaterial& material, const Rgb& factor,
-                                   Target target) {
-  if (target == Target::kUnlit) return unlit_material(source, material, factor);
+                                   ShownTexture texture, Target target) {
+  if (target == Target::kUnlit) return unlit_material(source, material, factor, texture);
   if (factor == Rgb(1.0F)) return std::nullopt;
   return dimmed_material(source, material, factor);
 }
 
 void assign_materials(Document& document, const ImportedScene& scene, const std::vector<BakedPrimitive>& primitives,
-                      Target target) {
+                      const std::vector<ShownTexture>& textures, Target target) {
   // What stays as it is, and what others look at.
   Json& root = document.json;
   const Json sources = root.value("materials", Json::array());
@@ -113,7 +113,8 @@ void assign_materials(Document& document, const ImportedScene& scene, const std:
     return source ? sources[*source] : Json::object();
   };
   const auto change_of = [&](const BakedPrimitive& baked) {
-    return baked_material(source_of(baked), scene.materials[baked.material], baked.factor, target);
+    return baked_material(source_of(baked), scene.materials[baked.material], baked.factor, textures[baked.material],
+                          target);
   };
   for (const BakedPrimitive& baked : primitives) {
     if (change_of(baked)) primitive_json(root, baked).erase("material");
@@ -173,7 +174,10 @@ ExportReport export_scene(Document& document, BufferBuilder& buffer, const Impor
   const std::vector<RefinedPrimitive> refined = split_by_instance(bake.mesh, scene);
   const bool unlit = options.target == Target::kUnlit;
   const ColorParts parts{unlit, unlit && options.bake != BakedLight::kIndirect};
-  const std::vector<VertexColors> colors = vertex_colors(scene, bake, refined, parts);
+  const std::vector<ShownTexture> textures =
+      parts.emission ? choose_textures(scene, bake, refined)
+                     : std::vector<ShownTexture>(scene.materials.size(), ShownTexture::kBaseColor);
+  const std::vector<VertexColors> colors = vertex_colors(scene, bake, refined, parts, textures);
   const float k = exposure(colors, options, report);
 
   // Geometry and colours.
@@ -197,7 +201,7 @@ ExportReport export_scene(Document& document, BufferBuilder& buffer, const Impor
     primitive_json(document.json, baked.back()) = std::move(primitive);
   }
 
-  assign_materials(document, scene, baked, options.target);
+  assign_materials(document, scene, baked, textures, options.target);
   sign(document.json, report, options);
   return report;
 }
