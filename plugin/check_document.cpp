@@ -16,8 +16,9 @@ namespace {
 constexpr std::uint64_t kMaxTexcoord = 63;
 
 constexpr std::string_view kSupportedExtensions[] = {
-    "KHR_draco_mesh_compression", "KHR_texture_transform", "KHR_lights_punctual", "KHR_mesh_quantization",
-    "EXT_texture_webp", "EXT_lights_image_based",
+    "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression",  // decoded while reading
+    "KHR_texture_transform", "KHR_lights_punctual", "KHR_mesh_quantization", "EXT_texture_webp",
+    "EXT_lights_image_based",
     "KHR_texture_basisu",  // textures without a plain image: import_textures
     "KHR_materials_emissive_strength", "KHR_materials_unlit",
     "KHR_materials_pbrSpecularGlossiness",  // import_materials warns
@@ -86,11 +87,6 @@ class TreeChecker : private JsonChecker {
     for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
       for (const Json& name : array_in(root_, key, "")) {
         if (!name.is_string()) fail(key, "holds something that is not a string");
-      }
-    }
-    for (std::size_t i = 0; i < size("bufferViews"); ++i) {
-      if (extension_of(root_["bufferViews"][i], "EXT_meshopt_compression") != nullptr) {
-        fail(place_of("bufferViews", i), "EXT_meshopt_compression is not supported yet");
       }
     }
     for (const Json& name : array_of(root_, "extensionsRequired")) {

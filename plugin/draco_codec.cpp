@@ -15,6 +15,7 @@
 #include "plugin/accessor_view.h"
 #include "plugin/append_accessor.h"
 #include "plugin/check_document.h"
+#include "plugin/used_extensions.h"
 
 namespace gltf_radiosity {
 namespace {
@@ -100,9 +101,7 @@ class DracoDecoder {
         }
       }
     }
-    Json& extensions = primitive["extensions"];
-    extensions.erase(kDracoExtension);
-    if (extensions.empty()) primitive.erase("extensions");
+    remove_extension(primitive, kDracoExtension);
     return Done{};
   }
 
@@ -215,20 +214,6 @@ class DracoDecoder {
   Bytes bytes_;
 };
 
-void remove_name(Json& root, const char* array) {
-  const auto it = root.find(array);
-  if (it == root.end()) return;
-  Json kept = Json::array();
-  for (const Json& name : *it) {
-    if (name != kDracoExtension) kept.push_back(name);
-  }
-  if (kept.empty()) {
-    root.erase(array);
-  } else {
-    *it = std::move(kept);
-  }
-}
-
 }  // namespace
 
 Result<Done> decode_draco(Document& document) {
@@ -246,8 +231,7 @@ Result<Done> decode_draco(Document& document) {
   }
   if (!any) return Done{};
   decoder.finish();
-  remove_name(document.json, "extensionsUsed");
-  remove_name(document.json, "extensionsRequired");
+  forget_extension(document.json, kDracoExtension);
   return Done{};
 }
 

@@ -1,10 +1,11 @@
 #include "plugin/export_materials.h"
 
-#include <algorithm>
 #include <charconv>
 #include <string>
 #include <string_view>
 #include <utility>
+
+#include "plugin/used_extensions.h"
 
 namespace gltf_radiosity {
 namespace {
@@ -33,23 +34,6 @@ void walk(const Json& value, const std::string& key, const Visit& visit) {
       walk(element, key, visit);
     }
   }
-}
-
-void erase_if_empty(Json& object, const char* key) {
-  if (object.contains(key) && object[key].empty()) object.erase(key);
-}
-
-/// Removes `name` from a root array of extension names, and the array with its last name.
-void remove_name(Json& root, const char* array, const std::string& name) {
-  if (!root.contains(array)) return;
-  Json& names = root[array];
-  names.erase(std::remove(names.begin(), names.end(), Json(name)), names.end());
-  erase_if_empty(root, array);
-}
-
-void declare_used(Json& root, const char* extension) {
-  Json& used = root["extensionsUsed"];
-  if (std::find(used.begin(), used.end(), Json(extension)) == used.end()) used.push_back(extension);
 }
 
 }  // namespace
@@ -81,7 +65,7 @@ Json unlit_material(const Json& source, const ImportedMaterial& material) {
 
 std::size_t export_unlit_material(Document& document, const ImportedMaterial& material,
                                   const std::set<std::size_t>& referenced) {
-  declare_used(document.json, kUnlit);
+  declare_extension(document.json, kUnlit);
   Json& materials = document.json["materials"];
   if (!material.source) {
     materials.push_back(unlit_material(Json::object(), material));
@@ -133,10 +117,7 @@ void forget_unused_material_extensions(Json& root) {
     for (const auto& item : value.items()) unused.erase(item.key());
   });
   unused.erase(kVariants);  // its list of names stays at the root
-  for (const std::string& name : unused) {
-    remove_name(root, "extensionsUsed", name);
-    remove_name(root, "extensionsRequired", name);
-  }
+  for (const std::string& name : unused) forget_extension(root, name);
 }
 
 }  // namespace gltf_radiosity

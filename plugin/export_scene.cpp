@@ -12,6 +12,7 @@
 #include "plugin/export_colors.h"
 #include "plugin/export_materials.h"
 #include "plugin/export_meshes.h"
+#include "plugin/used_extensions.h"
 
 namespace gltf_radiosity {
 namespace {
@@ -60,8 +61,7 @@ std::vector<std::size_t> separate_meshes(Json& root, const std::vector<Primitive
 /// A variant would show a material that is not unlit.
 void drop_variants(Json& primitive, const PrimitiveInstance& instance, std::vector<Warning>& warnings) {
   if (!primitive.contains("extensions") || !primitive["extensions"].contains(kVariants)) return;
-  primitive["extensions"].erase(kVariants);
-  if (primitive["extensions"].empty()) primitive.erase("extensions");
+  remove_extension(primitive, kVariants);
   warnings.push_back({"variants-dropped", place_of_primitive(instance.mesh, instance.primitive),
                       "the material variants of this primitive were dropped, the default one was baked"});
 }

@@ -173,3 +173,12 @@ test('a point light amid a room compressed by Draco lights the four corners of e
     }
   }
 })
+
+test('what meshoptimizer compressed shows the light that it shows without compression', () => {
+  const [compressed, plain] = ['meshopt_compressed.glb', 'skinned_and_morphed.glb'].map((scene) => vertices_of(scene))
+  for (const name of ['skinned', 'morphed']) {
+    plain[name].forEach(({ position, color }, k) =>
+      assert_near(compressed[name][k].color[1], color[1], 1e-3, `${name} at ${position}`))
+    assert.ok(plain[name].some(({ color }) => color[1] > 0.1), `${name} is dark`)
+  }
+})
