@@ -17,8 +17,8 @@ constexpr std::uint64_t kMaxTexcoord = 63;
 
 constexpr std::string_view kSupportedExtensions[] = {
     "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression",  // decoded while reading
-    "KHR_texture_transform", "KHR_lights_punctual", "KHR_mesh_quantization", "EXT_texture_webp",
-    "EXT_lights_image_based",
+    "KHR_texture_transform", "KHR_lights_punctual", "EXT_mesh_gpu_instancing", "KHR_node_visibility",
+    "KHR_mesh_quantization", "EXT_texture_webp", "EXT_lights_image_based",
     "KHR_texture_basisu",  // textures without a plain image: import_textures
     "KHR_materials_emissive_strength", "KHR_materials_unlit",
     "KHR_materials_pbrSpecularGlossiness",  // import_materials warns
@@ -221,11 +221,32 @@ class TreeChecker : private JsonChecker {
       check_indices(array_in(node, "children", place), "children", "nodes", place);
       check_weights(node, place);
       if (error_) return;
+      if (const Json* visibility = extension_of(node, "KHR_node_visibility")) {
+        bool_if_present(*visibility, "visible", place);
+      }
+      if (const Json* instancing = extension_of(node, "EXT_mesh_gpu_instancing")) check_instancing(*instancing, place);
       const Json* light = extension_of(node, "KHR_lights_punctual");
       if (light == nullptr) continue;
       const std::uint64_t light_index = number(*light, "light", std::nullopt, place);
       if (light_index >= light_count_)
         fail(place, fmt::format("refers to light {}, but there are {}", light_index, light_count_));
+    }
+  }
+
+  void check_instancing(const Json& instancing, const std::string& place) {
+    const Json* attributes = object_in(instancing, "attributes", place);
+    if (attributes == nullptr) return;
+    std::optional<Json> count;
+    for (const auto& [name, value] : attributes->items()) {
+      const auto accessor = index(*attributes, name, "accessors", place);
+      if (!accessor) return;
+      const Json& json = root_["accessors"][*accessor];
+      const bool vector = name == "TRANSLATION" || name == "SCALE";
+      if ((vector && json["type"] != "VEC3") || (name == "ROTATION" && json["type"] != "VEC4")) {
+        return fail(place, fmt::format("{} of its instances cannot be {}", name, json["type"].get<std::string>()));
+      }
+      if (!count) count = json["count"];
+      if (json["count"] != *count) return fail(place, "the attributes of its instances have different counts");
     }
   }
 

@@ -12,6 +12,7 @@
 #include "plugin/export_colors.h"
 #include "plugin/export_materials.h"
 #include "plugin/export_meshes.h"
+#include "plugin/instancing.h"
 #include "plugin/used_extensions.h"
 
 namespace gltf_radiosity {
@@ -28,20 +29,22 @@ void count_mesh_references(const Json& value, std::map<std::size_t, std::size_t>
 }
 
 /// Gives every node that receives light a mesh that no other node uses; returns the mesh of each instance.
-std::vector<std::size_t> separate_meshes(Json& root, const std::vector<PrimitiveInstance>& instances) {
+/// `nodes` are those of the instances.
+std::vector<std::size_t> separate_meshes(Json& root, const std::vector<PrimitiveInstance>& instances,
+                                         const std::vector<std::size_t>& nodes) {
   // Who is baked, and whether anybody else looks at the same mesh.
   std::map<std::size_t, std::set<std::size_t>> baked_nodes_of_mesh;
-  for (const PrimitiveInstance& instance : instances) {
-    if (instance.receives) baked_nodes_of_mesh[instance.mesh].insert(instance.node);
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    if (instances[i].receives) baked_nodes_of_mesh[instances[i].mesh].insert(nodes[i]);
   }
   std::map<std::size_t, std::size_t> references;
   count_mesh_references(root, references);
 
   // Copies, before anything is edited.
   std::map<std::size_t, std::size_t> mesh_of_node;
-  for (const auto& [mesh, nodes] : baked_nodes_of_mesh) {
-    bool in_place = references[mesh] == nodes.size();
-    for (const std::size_t node : nodes) {
+  for (const auto& [mesh, baked_nodes] : baked_nodes_of_mesh) {
+    bool in_place = references[mesh] == baked_nodes.size();
+    for (const std::size_t node : baked_nodes) {
       if (!std::exchange(in_place, false)) {
         Json copy = root["meshes"][mesh];
         root["meshes"].push_back(std::move(copy));
@@ -51,9 +54,9 @@ std::vector<std::size_t> separate_meshes(Json& root, const std::vector<Primitive
     }
   }
   std::vector<std::size_t> meshes;
-  for (const PrimitiveInstance& instance : instances) {
-    const auto own = mesh_of_node.find(instance.node);
-    meshes.push_back(own == mesh_of_node.end() ? instance.mesh : own->second);
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    const auto own = mesh_of_node.find(nodes[i]);
+    meshes.push_back(own == mesh_of_node.end() ? instances[i].mesh : own->second);
   }
   return meshes;
 }
@@ -130,7 +133,8 @@ ExportReport export_scene(Document& document, BufferBuilder& buffer, const Impor
 
   // Geometry and colours.
   std::vector<BakedPrimitive> baked;
-  const std::vector<std::size_t> meshes = separate_meshes(document.json, scene.instances);
+  const std::vector<std::size_t> nodes = expand_copies(document, scene.instances);
+  const std::vector<std::size_t> meshes = separate_meshes(document.json, scene.instances, nodes);
   for (std::size_t i = 0; i < refined.size(); ++i) {
     const PrimitiveInstance& instance = scene.instances[i];
     count(instance, refined[i], report);

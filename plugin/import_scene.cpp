@@ -21,6 +21,7 @@
 #include "plugin/import_lights.h"
 #include "plugin/import_nodes.h"
 #include "plugin/import_sky.h"
+#include "plugin/instancing.h"
 
 namespace gltf_radiosity {
 namespace {
@@ -67,7 +68,7 @@ class SceneImporter {
   // Nodes.
 
   Result<Done> import_surfaces() {
-    auto placed = place_nodes(document_, model_, options_.subdivide, warnings_);
+    auto placed = place_nodes(document_, model_, options_, warnings_);
     if (!placed) return placed.error();
     for (const std::uint32_t node : placed->visible) {
       if (auto done = import_node(*placed, node); !done) return done.error();
@@ -78,25 +79,42 @@ class SceneImporter {
 
   Result<Done> import_node(const PlacedNodes& placed, std::uint32_t node) {
     const Json& json = document_.json["nodes"][node];
-    if (extension_of(json, "EXT_mesh_gpu_instancing") != nullptr) {
-      return bad_input(place_of("nodes", node), "EXT_mesh_gpu_instancing is not supported yet");
-    }
     if (const Json* light = extension_of(json, "KHR_lights_punctual"))
       import_punctual_light(*light, placed.world_from_node[node]);
     const int mesh = model_.nodes[node].mesh;
     if (mesh < 0) return Done{};
-    const std::size_t primitive_count = model_.meshes[static_cast<std::size_t>(mesh)].primitives.size();
-    for (std::size_t primitive = 0; primitive < primitive_count; ++primitive) {
-      if (!has_triangles(model_, static_cast<std::size_t>(mesh), primitive)) {
-        ++skipped_primitives_;
-        continue;
+    if (model_.nodes[node].skin >= 0 && instancing_of(document_, node) != nullptr) {
+      return bad_input(place_of("nodes", node), "EXT_mesh_gpu_instancing does not say where skinned copies stand");
+    }
+    std::uint32_t copy = 0;
+    for (const glm::dmat4& node_from_copy : copy_transforms(document_, node)) {
+      if (auto done = import_copy(placed, {node, copy++, placed.world_from_node[node] * node_from_copy}); !done) {
+        return done.error();
       }
-      if (auto done = import_instance(placed, node, primitive); !done) return done.error();
     }
     return Done{};
   }
 
-  Result<Done> import_instance(const PlacedNodes& placed, std::uint32_t node, std::size_t primitive) {
+  /// One of the copies of a node's mesh; nodes without EXT_mesh_gpu_instancing have one.
+  struct Copy {
+    std::uint32_t node = 0, number = 0;
+    glm::dmat4 world_from_mesh{1.0};
+  };
+
+  Result<Done> import_copy(const PlacedNodes& placed, const Copy& copy) {
+    const auto mesh = static_cast<std::size_t>(model_.nodes[copy.node].mesh);
+    for (std::size_t primitive = 0; primitive < model_.meshes[mesh].primitives.size(); ++primitive) {
+      if (!has_triangles(model_, mesh, primitive)) {
+        if (copy.number == 0) ++skipped_primitives_;
+        continue;
+      }
+      if (auto done = import_instance(placed, copy, primitive); !done) return done.error();
+    }
+    return Done{};
+  }
+
+  Result<Done> import_instance(const PlacedNodes& placed, const Copy& copy, std::size_t primitive) {
+    const std::uint32_t node = copy.node;
     // What it is made of.
     const auto mesh = static_cast<std::size_t>(model_.nodes[node].mesh);
     const Result<std::uint32_t> material = material_index(model_.meshes[mesh].primitives[primitive].material);
@@ -116,6 +134,7 @@ class SceneImporter {
     instance.node = node;
     instance.mesh = static_cast<std::uint32_t>(mesh);
     instance.primitive = static_cast<std::uint32_t>(primitive);
+    instance.copy = copy.number;
     instance.material = *material;
     instance.first_vertex = static_cast<std::uint32_t>(scene.positions.size());
     instance.vertex_count = static_cast<std::uint32_t>(source.positions.size());
@@ -127,8 +146,8 @@ class SceneImporter {
     // Where it stands.
     const std::vector<glm::dmat4> joints = world_from_bind(placed, node);
     if (joints.empty() || source.weights.empty()) {
-      instance.mirrored = glm::determinant(glm::dmat3(placed.world_from_node[node])) < 0.0;
-      place_vertices(source, {&placed.world_from_node[node], 1});
+      instance.mirrored = glm::determinant(glm::dmat3(copy.world_from_mesh)) < 0.0;
+      place_vertices(source, {&copy.world_from_mesh, 1});
     } else {
       instance.mirrored = glm::determinant(glm::dmat3(joints[0])) < 0.0;
       place_vertices(source, skin_transforms(source, joints));
@@ -383,10 +402,12 @@ Result<ImportedScene> import_scene(const Document& document, const Options& opti
   return SceneImporter(document, **model, options, warnings).run();
 }
 
-Result<ImportedScene> import_displayed(const Document& document, std::vector<Warning>& warnings) {
+Result<ImportedScene> import_displayed(const Document& document, std::optional<std::uint32_t> scene,
+                                       std::vector<Warning>& warnings) {
   const auto model = typed_view(document);
   if (!model) return model.error();
-  const Options options;
+  Options options;
+  options.scene = scene;
   return SceneImporter(document, **model, options, warnings).run_without_light();
 }
 

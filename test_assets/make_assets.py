@@ -24,6 +24,7 @@ from features import (  # noqa: E402
     unit_cube,
     uv_seam,
 )
+from instances import instanced  # noqa: E402
 from rooms import sky_court, two_rooms, white_furnace  # noqa: E402
 from skies import image_based_light, sunny_hdr  # noqa: E402
 from textured_interior import textured_interior  # noqa: E402
@@ -41,6 +42,8 @@ def scenes():
         "strip": strip(),
         "points_and_lines": points_and_lines(),
         "skinned_and_morphed": skinned_and_morphed(),
+        "instanced": instanced(),
+        "instanced_as_nodes": instanced(as_nodes=True),
         "extras_everywhere": extras_everywhere(),
         "lights_all_kinds": lights_all_kinds(),
         "white_furnace_50": white_furnace(reflectance=0.5, luminance=0.25),

@@ -1,6 +1,9 @@
 // What must hold for every baked file, whatever the scene.
 import assert from 'node:assert/strict'
-import { image_bytes, primitives_of_scene, read_accessor, read_gltf } from './gltf_file.mjs'
+import {
+  copy_count, image_bytes, nodes_of_scene, primitives_of_node, primitives_of_scene, read_accessor, read_gltf, view_bytes,
+} from './gltf_file.mjs'
+import { differences, exact_json } from './json_differences.mjs'
 import { new_errors } from './validator.mjs'
 
 const unlit = 'KHR_materials_unlit'
@@ -53,72 +56,141 @@ function check_material(gltf, primitive, source, place) {
 
 // Every primitive of the default scene carries its light, or is what it was.
 export function check_primitives(input, output) {
-  const before = primitives_of_scene(input)
-  const after = primitives_of_scene(output)
-  assert.equal(after.length, before.length, 'primitives of the default scene')
-  before.forEach(([node, primitive, k], i) => {
-    const [node_after, baked] = after[i]
-    assert.equal(node_after, node)
-    const place = `nodes[${node}] primitive ${k}`
-    if (receives(input, primitive)) {
-      check_colors(output, baked, place)
-      check_material(output, baked, { gltf: input, primitive }, place)
-    } else {
-      assert.deepEqual(material_of(output, baked), material_of(input, primitive), place)
+  const shown = visible_nodes(input)
+  for (const [node, primitive, k] of primitives_of_scene(input)) {
+    for (const node_after of nodes_after(input, output, node)) {
+      const baked = primitives_of_node(output, node_after)[k][1]
+      const place = `nodes[${node}] primitive ${k}`
+      if (shown.has(node) && receives(input, primitive)) {
+        check_colors(output, baked, place)
+        check_material(output, baked, { gltf: input, primitive }, place)
+      } else {
+        assert.deepEqual(material_of(output, baked), material_of(input, primitive), place)
+        assert.equal(node_after, node)
+      }
     }
-  })
-}
-
-const filtered = (object, keeps) => Object.fromEntries(Object.entries(object).filter(([key]) => keeps(key)))
-const pick = (object, ...keys) => filtered(object, (key) => keys.includes(key))
-const without = (object, ...keys) => filtered(object, (key) => !keys.includes(key))
-const described = (object, ...more) => pick(object, 'name', 'extras', 'extensions', ...more)
-
-function of_primitive(primitive) {
-  const extensions = without(primitive.extensions ?? {}, draco, 'KHR_materials_variants')
-  return { extras: primitive.extras, extensions, targets: primitive.targets?.length }
-}
-
-// A material may become unlit where it stands; what is left of one that something unbaked uses, check_primitives sees.
-function of_material(material) {
-  const extensions = filtered(material.extensions ?? {}, (name) => name !== unlit && !is_shading(name))
-  return { ...pick(material, 'name', 'extras'), extensions }
-}
-
-const of_mesh = (mesh) => ({ ...without(mesh, 'primitives'), primitives: mesh.primitives.map(of_primitive) })
-
-// The parts of a file that a bake must not change; `count` limits arrays to which a bake may append.
-function kept(json, count) {
-  const plain_view = ({ extensions, ...view }) => ({ ...view, extensions: without(extensions ?? {}, meshopt) })
-  const first = (array, view) => (json[array] ?? []).slice(0, count[array]?.length ?? 0).map(view)
-  const { radiosity, ...asset_extras } = json.asset.extras ?? {}
-  const rest = without(json, 'asset', 'extensionsUsed', 'extensionsRequired', 'materials', 'meshes', 'accessors',
-    'bufferViews', 'buffers', 'images', 'nodes')
-  return {
-    ...rest,
-    asset: { ...without(json.asset, 'generator', 'extras'), extras: asset_extras },
-    nodes: json.nodes?.map((node) => without(node, 'mesh')),
-    mesh_of_node: json.nodes?.map(({ mesh }) => (mesh === undefined ? null : of_mesh(json.meshes[mesh]))),
-    materials: first('materials', of_material),
-    meshes: first('meshes', of_mesh),
-    accessors: first('accessors', (accessor) => described(accessor, 'componentType', 'type')),
-    buffer_views: first('bufferViews', (view) => described(plain_view(view), 'byteStride', 'target')),
-    images: first('images', (image) => described(image)),
   }
 }
 
-// Everything a bake does not understand is where it was.
-export function check_nothing_is_lost(input, output) {
-  assert.deepEqual(kept(output.json, input.json), kept(input.json, input.json))
-  const used = new Set(output.json.extensionsUsed ?? [])
-  for (const name of input.json.extensionsUsed ?? []) {
-    assert.ok(used.has(name) || [draco, meshopt].includes(name) || is_shading(name), `extensionsUsed lost ${name}`)
+// The nodes that show a node's mesh after the bake: instanced copies that were baked have become its last children.
+function nodes_after(input, output, node) {
+  const expanded = copy_count(input, node) > 0 && copy_count(output, node) === 0
+  return expanded ? output.json.nodes[node].children.slice(-copy_count(input, node)) : [node]
+}
+
+// Those of the default scene that KHR_node_visibility does not hide.
+function visible_nodes(gltf) {
+  const is_hidden = (node) => gltf.json.nodes[node].extensions?.KHR_node_visibility?.visible === false
+  return new Set(nodes_of_scene(gltf, (node) => !is_hidden(node)))
+}
+
+const without = (object = {}, ...keys) => Object.fromEntries(Object.entries(object).filter(([key]) => !keys.includes(key)))
+
+// What a bake may change in a tree, as patterns of JSON pointers; $ stands for the index of something that is new.
+const allowed = [
+  // The signature.
+  '/asset/extras(/radiosity)?',
+  // All data is in one buffer; what is new comes after what there was.
+  '/buffers/0(/(byteLength|uri|extensions))?', '/buffers/\\d+',
+  '/bufferViews/\\d+/(buffer|byteOffset|extensions)', '/bufferViews/$', '/bufferViews',
+  '/images/\\d+/(uri|bufferView|mimeType)',
+  '/accessors/$',
+  // Compressed data became plain.
+  '/accessors/\\d+/(bufferView|byteOffset|(min|max)/\\d+)',
+  // What a baked primitive is made of.
+  '/meshes/$', '/meshes/\\d+/primitives/\\d+/(attributes/[^/]+|targets/\\d+/[^/]+|indices|material|mode)',
+  '/meshes/\\d+/primitives/\\d+/extensions(/KHR_materials_variants|/KHR_draco_mesh_compression)?',
+  '/nodes/\\d+/mesh',
+  '/materials', '/materials/$',
+]
+// In a material that has become unlit where it stood.
+const allowed_in_unlit = [
+  '/(emissiveFactor|emissiveTexture|normalTexture|occlusionTexture)(/.*)?',
+  '/pbrMetallicRoughness(/(baseColorFactor|metallicFactor|roughnessFactor|metallicRoughnessTexture)(/.*)?)?',
+  '/extensions(/(KHR|EXT|ADOBE)_materials_[^/]*(/.*)?)?',
+]
+// Where instanced copies have become nodes.
+const allowed_with_instances = [
+  '/nodes/$', '/nodes/\\d+/(mesh|weights|children|extensions)', '/nodes/\\d+/(children|extensions)/[^/]+',
+  '/animations/\\d+/channels/\\d+/target/node', '/animations/\\d+/channels/$',
+]
+
+// Whether a difference fits one of the patterns.
+function fits(patterns, { pointer, before, after }) {
+  return patterns.some((pattern) => {
+    const is_new = pattern.includes('$')
+    return new RegExp(`^${pattern.replace('$', '\\d+')}$`).test(pointer) && !(is_new && before !== undefined && after !== undefined)
+  })
+}
+
+// Differences that no bake may make.
+function forbidden(before, after) {
+  const instanced = before.nodes?.some((_, node) => copy_count({ json: before }, node) > 0)
+  return differences(before, after).filter((difference) => {
+    const { pointer } = difference
+    if (/^\/extensions(Used|Required)/.test(pointer) || fits(allowed, difference)) return false
+    if (instanced && fits(allowed_with_instances, difference)) return false
+    const [, index, rest] = /^\/materials\/(\d+)(\/.*)$/.exec(pointer) ?? []
+    const baked = index !== undefined && is_unlit(after.materials[index]) && !is_unlit(before.materials[index])
+    return !(baked && fits(allowed_in_unlit, { ...difference, pointer: rest }))
+  })
+}
+
+// Where a primitive keeps its positions, it keeps everything but COLOR_0.
+function check_geometry(before, after, place) {
+  if (before.attributes.POSITION !== after.attributes.POSITION) return
+  if (before.extensions?.[draco] !== undefined) return
+  assert.deepEqual(without(after.attributes, 'COLOR_0'), without(before.attributes, 'COLOR_0'), place)
+  assert.deepEqual([after.indices, after.mode, after.targets], [before.indices, before.mode, before.targets], place)
+}
+
+// A copy of a mesh keeps what describes it.
+function check_mesh(before, after, place) {
+  const described = ({ primitives, ...mesh }) => ({
+    ...mesh,
+    primitives: primitives.map(({ extras, extensions, targets }) => (
+      { extras, extensions: without(extensions, draco, 'KHR_materials_variants'), targets: targets?.length })),
+  })
+  assert.deepEqual(described(after), described(before), place)
+  before.primitives.forEach((primitive, k) => check_geometry(primitive, after.primitives[k], `${place}, primitive ${k}`))
+}
+
+function check_extensions(before, after) {
+  const declared = ({ extensionsUsed = [], extensionsRequired = [] }) => [extensionsUsed, extensionsRequired]
+  const may_go = (name) => [draco, meshopt, 'EXT_mesh_gpu_instancing'].includes(name) || is_shading(name)
+  const names_after = declared(after)
+  declared(before).forEach((names, k) => {
+    for (const name of names) assert.ok(names_after[k].includes(name) || may_go(name), `${name} is not declared any more`)
+    const added = names_after[k].filter((name) => !names.includes(name))
+    assert.deepEqual(added.filter((name) => k === 1 || name !== unlit), [], 'declared anew; unlit is used, not required')
+  })
+}
+
+// Every byte that the tree refers to is where it was, but for those that were compressed.
+function check_data(input, output) {
+  const is_compressed = (view) => view.extensions?.[meshopt] !== undefined
+  for (const [index, view] of (input.json.bufferViews ?? []).entries()) {
+    if (is_compressed(view)) continue
+    assert.ok(view_bytes(input, index).equals(view_bytes(output, index)), `bufferViews[${index}] changed`)
   }
   for (const [index] of (input.json.images ?? []).entries()) {
     assert.ok(image_bytes(input, index).equals(image_bytes(output, index)), `images[${index}] changed`)
   }
-  const requires_unlit = ({ json }) => json.extensionsRequired?.includes(unlit) ?? false
-  assert.equal(requires_unlit(output), requires_unlit(input), 'unlit is used, not required')
+}
+
+// Everything a bake does not understand is where it was, to the last digit and byte.
+export function check_nothing_is_lost(input_file, output_file) {
+  const [before, after] = [input_file, output_file].map(exact_json)
+  assert.deepEqual(forbidden(before, after), [])
+  check_extensions(before, after)
+  const [input, output] = [input_file, output_file].map(read_gltf)
+  check_data(input, output)
+  before.nodes?.forEach(({ mesh }, node) => {
+    if (mesh === undefined) return
+    for (const now of nodes_after(input, output, node)) {
+      check_mesh(before.meshes[mesh], after.meshes[after.nodes[now].mesh], `the mesh of nodes[${node}]`)
+    }
+  })
 }
 
 // All of the above and the validator. Answers { input, output } for further questions.
@@ -127,7 +199,7 @@ export async function check_baked(input_file, output_file) {
   const input = read_gltf(input_file)
   const output = read_gltf(output_file)
   check_primitives(input, output)
-  check_nothing_is_lost(input, output)
+  check_nothing_is_lost(input_file, output_file)
   const { radiosity } = output.json.asset.extras
   assert.ok(radiosity.exposure > 0, 'asset.extras.radiosity names the exposure')
   return { input, output }

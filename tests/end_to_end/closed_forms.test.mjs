@@ -182,3 +182,13 @@ test('what meshoptimizer compressed shows the light that it shows without compre
     assert.ok(plain[name].some(({ color }) => color[1] > 0.1), `${name} is dark`)
   }
 })
+
+test('instances show the light that nodes in their places show', () => {
+  const [copies, nodes] = ['instanced.glb', 'instanced_as_nodes.glb'].map((scene) => vertices_of(scene))
+  for (const name of ['floor', 'stones[0]', 'stones[1]', 'stones[2]']) {
+    assert.equal(copies[name].length, nodes[name].length)
+    nodes[name].forEach(({ position, color }, k) =>
+      assert_near(copies[name][k].color[1], color[1], 2e-3, `${name} at ${position}`))
+    assert.ok(nodes[name].some(({ color }) => color[1] > 0.05), `${name} is dark`)
+  }
+})

@@ -421,13 +421,52 @@ TEST(ImportScene, SenselessLevelsAreIgnoredWithAWarning) {
   EXPECT_EQ(result.imported.level_of_triangle[0], radiosity::kLevelFromPatchSize);
 }
 
+// Scenes and visibility.
+
+TEST(ImportScene, AnySceneOfTheFileCanBeChosen) {
+  GltfBuilder builder;
+  const std::size_t mesh = builder.add_mesh(unit_square());
+  builder.add_node(mesh, {{"translation", {1, 0, 0}}});
+  builder.add_node(mesh, {{"translation", {2, 0, 0}}});
+  builder.json["scenes"] = Json::parse(R"([{"nodes": [0]}, {"nodes": [1]}])");
+  const auto first_x = [&](std::optional<std::uint32_t> scene) {
+    Options options;
+    options.scene = scene;
+    return import(builder, options).scene().positions[0].x;
+  };
+  EXPECT_EQ(first_x(std::nullopt), 1.0F);
+  EXPECT_EQ(first_x(0), 1.0F);
+  EXPECT_EQ(first_x(1), 2.0F);
+  builder.json["scene"] = 1;
+  EXPECT_EQ(first_x(std::nullopt), 2.0F);
+  builder.json.erase("scene");
+  EXPECT_EQ(first_x(std::nullopt), 1.0F);
+  Options options;
+  options.scene = 2;
+  EXPECT_EQ(verdict(builder, options), "--scene: there is no scene 2: the file has 2, counted from 0");
+}
+
+TEST(ImportScene, WhatIsInvisibleTakesNoPart) {
+  GltfBuilder builder;
+  const std::size_t mesh = builder.add_mesh(unit_square());
+  const Json hidden = Json::parse(R"({"KHR_node_visibility": {"visible": false}})");
+  const Json shown = Json::parse(R"({"KHR_node_visibility": {"visible": true}})");
+  builder.add_node(mesh, {{"extensions", shown}});
+  const std::size_t parent = builder.add_node(mesh, {{"extensions", hidden}});
+  builder.add_node(mesh, {{"extensions", shown}}, parent);  // an ancestor hides it
+  Json lamp = hidden;
+  lamp["KHR_lights_punctual"]["light"] = 0;
+  builder.add_light({{"type", "point"}}, {{"extensions", lamp}});
+  const Imported result = import(builder);
+  ASSERT_EQ(result.imported.instances.size(), 1U);
+  EXPECT_EQ(result.imported.instances[0].node, 0U);
+  EXPECT_TRUE(result.scene().lights.empty());
+}
+
 // Refusals.
 
 TEST(ImportScene, WhatCannotBeBakedIsSaid) {
   EXPECT_EQ(verdict(GltfBuilder()), "nothing to bake: the scene has no triangles");
-  GltfBuilder builder;
-  builder.add_node(builder.add_mesh(unit_square()), {{"extensions", {{"EXT_mesh_gpu_instancing", Json::object()}}}});
-  EXPECT_EQ(verdict(builder), "nodes[0]: EXT_mesh_gpu_instancing is not supported yet");
 }
 
 }  // namespace

@@ -67,6 +67,7 @@ TEST(CommandLine, NeedsOnlyTwoFiles) {
 TEST(CommandLine, DefaultsAreThoseOfTheLibrary) {
   const Options parsed = parse_bake({}).options;
   const Options library;
+  EXPECT_EQ(parsed.scene, library.scene);
   EXPECT_EQ(parsed.refine, library.refine);
   EXPECT_EQ(parsed.patch_size, library.patch_size);
   EXPECT_EQ(parsed.subdivide, library.subdivide);
@@ -85,6 +86,11 @@ TEST(CommandLine, DefaultsAreThoseOfTheLibrary) {
   EXPECT_EQ(parsed.threads, library.threads);
   EXPECT_EQ(parsed.exposure, library.exposure);
   EXPECT_EQ(parsed.color_type, library.color_type);
+}
+
+TEST(CommandLine, ReadsWhichSceneIsMeant) {
+  EXPECT_EQ(parse_bake({"--scene", "3"}).options.scene, 3U);
+  EXPECT_EQ(parse_bake({"--scene", "3", "--scene", "auto"}).options.scene, std::nullopt);
 }
 
 TEST(CommandLine, ReadsTheOptionsOfTheMesh) {
@@ -168,6 +174,8 @@ TEST(CommandLine, TheLastOfRepeatedOptionsCounts) {
 TEST(CommandLine, EveryMistakeNamesTheOption) {
   const std::vector<Arguments> mistakes = {
       {"--refine", "maybe"},
+      {"--scene", "-1"},
+      {"--scene", "first"},
       {"--patch-size", "-1"},
       {"--patch-size", "nan"},
       {"--subdivide", "A"},
@@ -216,7 +224,7 @@ TEST(CommandLine, WantsTwoFilesAndNoMore) {
 TEST(CommandLine, TakesOptionsFromAFile) {
   const ConfigFile config(
       "patch-size = 0.5\nsky = [1, 2.5, 3]\nsubdivide = [\"A=1\", \"B=2\"]\nno-default-sky = true\nhemicube = 8\n"
-      "max-patches = \"auto\"\nquality = \"high\"\n");
+      "max-patches = \"auto\"\nquality = \"high\"\nscene = 2\n");
   const Options options = parse_bake({"--config", config.path(), "--patch-size", "0.25"}).options;
   EXPECT_EQ(options.patch_size, 0.25);
   EXPECT_EQ(options.sky, (std::array{1.0, 2.5, 3.0}));
@@ -224,6 +232,7 @@ TEST(CommandLine, TakesOptionsFromAFile) {
   EXPECT_FALSE(options.default_sky);
   EXPECT_EQ(options.hemicube, 8);
   EXPECT_EQ(options.max_patches, 0);
+  EXPECT_EQ(options.scene, 2U);
 }
 
 TEST(CommandLine, RefusesAFileWithMistakes) {
