@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "plugin/accessor_view.h"
+#include "plugin/import_textures.h"
 
 namespace gltf_radiosity {
 namespace {
@@ -18,14 +19,13 @@ constexpr std::uint64_t kMaxTexcoord = 63;
 constexpr std::string_view kSupportedExtensions[] = {
     "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression",  // decoded while reading
     "KHR_texture_transform", "KHR_lights_punctual", "EXT_mesh_gpu_instancing", "KHR_node_visibility",
-    "KHR_mesh_quantization", "EXT_texture_webp", "EXT_lights_image_based",
-    "KHR_texture_basisu",  // textures without a plain image: import_textures
-    "KHR_materials_emissive_strength", "KHR_materials_unlit",
-    "KHR_materials_pbrSpecularGlossiness",  // import_materials warns
+    "KHR_mesh_quantization", "EXT_texture_webp", "EXT_lights_image_based", "KHR_texture_basisu", "EXT_texture_avif",
+    "MSFT_texture_dds",  // the plain image or none: import_textures
+    "KHR_materials_emissive_strength", "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_transmission", "KHR_materials_diffuse_transmission", "KHR_materials_volume",
     // These hardly change how diffuse light travels.
-    "KHR_materials_anisotropy", "KHR_materials_clearcoat", "KHR_materials_diffuse_transmission",
-    "KHR_materials_dispersion", "KHR_materials_ior", "KHR_materials_iridescence", "KHR_materials_sheen",
-    "KHR_materials_specular", "KHR_materials_transmission", "KHR_materials_variants", "KHR_materials_volume",
+    "KHR_materials_anisotropy", "KHR_materials_clearcoat", "KHR_materials_dispersion", "KHR_materials_ior",
+    "KHR_materials_iridescence", "KHR_materials_sheen", "KHR_materials_specular", "KHR_materials_variants",
     // These have nothing to do with light.
     "KHR_animation_pointer", "KHR_xmp", "KHR_xmp_json_ld"};
 
@@ -116,7 +116,7 @@ class TreeChecker : private JsonChecker {
       const Json& texture = root_["textures"][i];
       index(texture, "source", "images", place);
       index(texture, "sampler", "samplers", place);
-      for (const char* name : {"EXT_texture_webp", "KHR_texture_basisu"}) {
+      for (const char* name : kImageExtensions) {
         if (const Json* extension = extension_of(texture, name)) index(*extension, "source", "images", place, true);
       }
     }
@@ -154,8 +154,32 @@ class TreeChecker : private JsonChecker {
         check_texture_info(*pbr, "metallicRoughnessTexture", place + ".pbrMetallicRoughness");
       }
       if (error_) return;
-      const Json* strength = extension_of(material, "KHR_materials_emissive_strength");
-      if (strength != nullptr) number_if_present(*strength, "emissiveStrength", place);
+      check_material_extensions(material, place);
+    }
+  }
+
+  void check_material_extensions(const Json& material, const std::string& place) {
+    if (const Json* strength = extension_of(material, "KHR_materials_emissive_strength")) {
+      number_if_present(*strength, "emissiveStrength", place);
+    }
+    if (const Json* glossy = extension_of(material, "KHR_materials_pbrSpecularGlossiness")) {
+      numbers(*glossy, "diffuseFactor", 4, place);
+      numbers(*glossy, "specularFactor", 3, place);
+      check_texture_info(*glossy, "diffuseTexture", place + ".KHR_materials_pbrSpecularGlossiness");
+    }
+    if (const Json* straight = extension_of(material, "KHR_materials_transmission")) {
+      number_if_present(*straight, "transmissionFactor", place);
+      check_texture_info(*straight, "transmissionTexture", place + ".KHR_materials_transmission");
+    }
+    if (const Json* volume = extension_of(material, "KHR_materials_volume")) {
+      number_if_present(*volume, "thicknessFactor", place);
+      number_if_present(*volume, "attenuationDistance", place);
+      numbers(*volume, "attenuationColor", 3, place);
+    }
+    if (const Json* diffuse = extension_of(material, "KHR_materials_diffuse_transmission")) {
+      number_if_present(*diffuse, "diffuseTransmissionFactor", place);
+      numbers(*diffuse, "diffuseTransmissionColorFactor", 3, place);
+      check_texture_info(*diffuse, "diffuseTransmissionTexture", place + ".KHR_materials_diffuse_transmission");
     }
   }
 

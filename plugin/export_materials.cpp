@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "plugin/json_checker.h"
 #include "plugin/used_extensions.h"
 
 namespace gltf_radiosity {
@@ -12,6 +13,7 @@ namespace {
 
 constexpr const char* kUnlit = "KHR_materials_unlit";
 constexpr const char* kVariants = "KHR_materials_variants";
+constexpr const char* kGlossy = "KHR_materials_pbrSpecularGlossiness";
 constexpr std::string_view kPointer = "/materials/";
 
 /// Extensions of a material that say how it reflects light, or repack textures that do.
@@ -41,9 +43,12 @@ void walk(const Json& value, const std::string& key, const Visit& visit) {
 Json unlit_material(const Json& source, const ImportedMaterial& material) {
   Json unlit = source.is_object() ? source : Json::object();
 
-  // Base colour: COLOR_0 holds the factor.
+  // Base colour: COLOR_0 holds the factor. Specular-glossiness has a texture of its own for it.
+  const Json* glossy = extension_of(source, kGlossy);
   Json& pbr = unlit["pbrMetallicRoughness"];
   if (!pbr.is_object()) pbr = Json::object();
+  if (glossy != nullptr) pbr.erase("baseColorTexture");
+  if (glossy != nullptr && glossy->contains("diffuseTexture")) pbr["baseColorTexture"] = (*glossy)["diffuseTexture"];
   pbr.erase("metallicRoughnessTexture");
   pbr.erase("baseColorFactor");
   if (material.base_color_factor.a != 1.0F) pbr["baseColorFactor"] = {1.0, 1.0, 1.0, material.base_color_factor.a};

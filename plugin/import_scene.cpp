@@ -48,7 +48,7 @@ class SceneImporter {
  public:
   SceneImporter(const Document& document, const tinygltf::Model& model, const Options& options,
                 std::vector<Warning>& warnings)
-      : document_(document), model_(model), options_(options), warnings_(warnings), textures_(document) {}
+      : document_(document), model_(model), options_(options), warnings_(warnings), textures_(document, warnings) {}
 
   Result<ImportedScene> run() {
     if (auto done = import_surfaces(); !done) return done.error();
@@ -140,7 +140,7 @@ class SceneImporter {
     instance.vertex_count = static_cast<std::uint32_t>(source.positions.size());
     instance.first_triangle = static_cast<std::uint32_t>(scene.triangles.size());
     instance.triangle_count = static_cast<std::uint32_t>(source.triangles.size());
-    instance.receives = !result_.materials[*material].unlit;
+    instance.receives = result_.materials[*material].receives();
     instance.source_vertex = source.source_vertex;
 
     // Where it stands.
@@ -197,7 +197,7 @@ class SceneImporter {
 
     const ImportedMaterial& used = result_.materials[material];
     std::set<int> texcoords;
-    for (const TextureSlot* slot : {&used.base_color, &used.emissive_texture, &used.metallic_roughness}) {
+    for (const TextureSlot* slot : used.textures()) {
       if (*slot) texcoords.insert(slot->texcoord);
     }
     auto geometry = read_primitive(document_, model_, mesh, primitive, texcoords, weights);
@@ -272,9 +272,13 @@ class SceneImporter {
     surface.see_through = may_let_light_through(material, has_colors);
     surface.reflectance = Rgb(0.0F);
     if (!material.unlit) {
+      // What lets light through is asked at each hit anyhow.
+      const auto textures = material.textures();
+      const bool textured =
+          std::any_of(textures.begin(), textures.end(), [](const TextureSlot* slot) { return !!*slot; });
       surface.reflectance = Rgb(material.base_color_factor) * material.diffuse_share(1.0F);
       surface.emission = material.emissive;
-      surface.varies = has_colors || material.base_color || material.emissive_texture || material.metallic_roughness;
+      surface.varies = has_colors || textured || material.transmission;
     }
     const auto index = static_cast<std::uint32_t>(result_.scene.surfaces.size());
     result_.scene.surfaces.push_back(surface);
@@ -285,6 +289,7 @@ class SceneImporter {
   }
 
   static bool may_let_light_through(const ImportedMaterial& material, bool has_colors) {
+    if (material.transmission && !material.unlit) return true;
     if (material.alpha_mode == AlphaMode::kOpaque) return false;
     if (material.base_color || has_colors) return true;
     const float opaque_from = material.alpha_mode == AlphaMode::kMask ? material.alpha_cutoff : 1.0F;
@@ -339,7 +344,7 @@ class SceneImporter {
     if (result_.scene.triangles.empty()) return bad_input("", "nothing to bake: the scene has no triangles");
     const bool any = std::any_of(result_.instances.begin(), result_.instances.end(),
                                  [](const PrimitiveInstance& instance) { return instance.receives; });
-    if (!any) return bad_input("", "nothing to bake: every material of the scene is unlit");
+    if (!any) return bad_input("", "nothing to bake: every material of the scene is unlit or clear");
     return Done{};
   }
 

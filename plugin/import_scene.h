@@ -19,7 +19,7 @@ struct PrimitiveInstance {
   std::uint32_t material = 0;                            ///< index into ImportedScene::materials
   std::uint32_t first_vertex = 0, vertex_count = 0;      ///< in Scene::positions
   std::uint32_t first_triangle = 0, triangle_count = 0;  ///< in Scene::triangles
-  bool receives = true;    ///< gets COLOR_0; otherwise it only blocks (KHR_materials_unlit)
+  bool receives = true;    ///< gets COLOR_0; otherwise it only blocks (ImportedMaterial::receives)
   std::uint32_t copy = 0;  ///< which of the copies that EXT_mesh_gpu_instancing makes of the node's mesh
   bool mirrored = false;   ///< the node's world transform turns triangles over
   /// Which vertex of the glTF primitive each scene vertex is, [vertex_count]; empty means the same, in order. Differs

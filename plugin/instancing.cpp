@@ -19,7 +19,7 @@ namespace gltf_radiosity {
 namespace {
 
 constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
-constexpr const char* kPointer = "KHR_animation_pointer";
+constexpr const char* kAnimationPointer = "KHR_animation_pointer";
 
 /// One attribute of all copies.
 struct CopyAttribute {
@@ -124,8 +124,8 @@ class CopyExpander {
         Json& own = copy == 0 ? channels[i] : channels.emplace_back(channel);
         Json& target = own["target"];
         if (target.contains("node")) target["node"] = first + copy;
-        if (extension_of(target, kPointer) == nullptr) continue;
-        target["extensions"][kPointer]["pointer"] = fmt::format("/nodes/{}/weights{}", first + copy, *tail);
+        if (extension_of(target, kAnimationPointer) == nullptr) continue;
+        target["extensions"][kAnimationPointer]["pointer"] = fmt::format("/nodes/{}/weights{}", first + copy, *tail);
       }
     }
   }
@@ -134,7 +134,7 @@ class CopyExpander {
   std::optional<std::string> animated_weights(const Json& channel) const {
     if (!channel.is_object() || !channel.contains("target") || !channel["target"].is_object()) return std::nullopt;
     const Json& target = channel["target"];
-    const Json* pointer = extension_of(target, kPointer);
+    const Json* pointer = extension_of(target, kAnimationPointer);
     if (pointer == nullptr) {
       const bool weights = target.contains("path") && target["path"] == "weights" && target.contains("node");
       return weights && target["node"] == node_ ? std::optional<std::string>("") : std::nullopt;

@@ -7,6 +7,7 @@ import { differences, exact_json } from './json_differences.mjs'
 import { new_errors } from './validator.mjs'
 
 const unlit = 'KHR_materials_unlit'
+const specular_glossiness = 'KHR_materials_pbrSpecularGlossiness'
 const draco = 'KHR_draco_mesh_compression'
 const meshopt = 'EXT_meshopt_compression'
 // A shading extension has no effect on an unlit material; nor has anything else that bends, coats or scatters light.
@@ -19,10 +20,17 @@ export const has_triangles = ({ mode = 4 }) => mode >= 4
 // COLOR_0 of a primitive, as rows of numbers.
 export const colors_of = (gltf, primitive) => read_accessor(gltf, primitive.attributes.COLOR_0)
 
+// What lets all light through stays as it is, as what is unlit does.
+function is_clear({ extensions = {} }) {
+  const { transmissionFactor = 0, transmissionTexture } = extensions.KHR_materials_transmission ?? {}
+  return transmissionFactor === 1 && transmissionTexture === undefined
+}
+
 // Whether COLOR_0 must have been written: triangles with vertices and a material that shows light.
 function receives(gltf, primitive) {
   const position = gltf.json.accessors?.[primitive.attributes.POSITION]
-  return has_triangles(primitive) && position !== undefined && !is_unlit(material_of(gltf, primitive))
+  const material = material_of(gltf, primitive)
+  return has_triangles(primitive) && position !== undefined && !is_unlit(material) && !is_clear(material)
 }
 
 function check_colors(gltf, primitive, place) {
@@ -50,7 +58,9 @@ function check_material(gltf, primitive, source, place) {
   for (const key of ['name', 'alphaMode', 'alphaCutoff', 'doubleSided', 'extras']) {
     assert.deepEqual(material[key], before[key], `${place}: ${key} of the material`)
   }
-  assert.deepEqual(pbr.baseColorTexture, before.pbrMetallicRoughness?.baseColorTexture, `${place}: texture`)
+  const glossy = before.extensions?.[specular_glossiness]
+  const texture = glossy ? glossy.diffuseTexture : before.pbrMetallicRoughness?.baseColorTexture
+  assert.deepEqual(pbr.baseColorTexture, texture, `${place}: texture`)
   assert.deepEqual(Object.keys(material.extensions).filter(is_shading), [], `${place}: extensions of the material`)
 }
 
@@ -132,7 +142,10 @@ function forbidden(before, after) {
     if (instanced && fits(allowed_with_instances, difference)) return false
     const [, index, rest] = /^\/materials\/(\d+)(\/.*)$/.exec(pointer) ?? []
     const baked = index !== undefined && is_unlit(after.materials[index]) && !is_unlit(before.materials[index])
-    return !(baked && fits(allowed_in_unlit, { ...difference, pointer: rest }))
+    if (!baked) return true
+    const replaces_texture = before.materials[index].extensions?.[specular_glossiness] !== undefined
+    const patterns = replaces_texture ? [...allowed_in_unlit, '/pbrMetallicRoughness/baseColorTexture(/.*)?'] : allowed_in_unlit
+    return !fits(patterns, { ...difference, pointer: rest })
   })
 }
 

@@ -192,3 +192,13 @@ test('instances show the light that nodes in their places show', () => {
     assert.ok(nodes[name].some(({ color }) => color[1] > 0.05), `${name} is dark`)
   }
 })
+
+test('glass lets light through by its factor times its colour, and what is invisible takes no part', () => {
+  const { floor, half_pane, ...others } = vertices_of('panes.glb')
+  assert.deepEqual(Object.keys(others), [], 'clear glass and what is invisible are not baked')
+  const mean = (vertices) => vertices.reduce((sum, { color }) => sum + color[1], 0) / vertices.length
+  // Specular-glossiness: the diffuse texture multiplies COLOR_0, which holds what falls on white.
+  assert_near(mean(floor.filter(({ position: [x] }) => x < -0.3)), 0.8, 0.03, 'below clear glass of 80 % grey')
+  assert_near(mean(floor.filter(({ position: [x] }) => x > 0.3)), 0.5, 0.04, 'below glass that lets half through')
+  for (const { color } of half_pane) assert_near(color[1], 1, 0.01, 'the pane itself')
+})

@@ -343,7 +343,7 @@ TEST(ImportScene, MetalsAreDiffuseOrBlack) {
 TEST(ImportScene, UnlitMaterialsOnlyBlock) {
   GltfBuilder builder =
       square_with({{"emissiveFactor", {1, 1, 1}}, {"extensions", {{"KHR_materials_unlit", Json::object()}}}});
-  EXPECT_EQ(verdict(builder), "nothing to bake: every material of the scene is unlit");
+  EXPECT_EQ(verdict(builder), "nothing to bake: every material of the scene is unlit or clear");
   builder.add_node(builder.add_mesh(unit_square()));
   const Imported result = import(builder);
   EXPECT_FALSE(result.imported.instances[0].receives);
