@@ -269,6 +269,9 @@ class TreeChecker : private JsonChecker {
       if ((vector && json["type"] != "VEC3") || (name == "ROTATION" && json["type"] != "VEC4")) {
         return fail(place, fmt::format("{} of its instances cannot be {}", name, json["type"].get<std::string>()));
       }
+      if (!json.contains("bufferView") && !json.contains("sparse")) {
+        return fail(place, fmt::format("{} of its instances has no data", name));
+      }
       if (!count) count = json["count"];
       if (json["count"] != *count) return fail(place, "the attributes of its instances have different counts");
     }

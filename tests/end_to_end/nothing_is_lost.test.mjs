@@ -4,7 +4,7 @@ import fs from 'node:fs'
 import path from 'node:path'
 import test from 'node:test'
 import { check_baked, check_nothing_is_lost, colors_of, has_triangles } from './baked.mjs'
-import { bake, cheapest, run, temporary_folder, test_asset } from './command_line.mjs'
+import { bake, cheapest, run, sanitized, temporary_folder, test_asset } from './command_line.mjs'
 import { primitives_of_scene, read_accessor, read_gltf, to_glb, triangles_of, view_bytes } from './gltf_file.mjs'
 
 const folder = temporary_folder()
@@ -183,3 +183,42 @@ test('integer colours are the float colours, rounded', async () => {
     values.forEach((value, k) => assert.ok(Math.abs(value - reference[k]) <= 0.5001 / largest))
   }
 })
+
+// A triangle in a .gltf with these nodes.
+function write_nodes(name, nodes) {
+  const numbers = new Float32Array([0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 1, 0, 0, 1, 0, 0, 1, 0])
+  const view = (byteOffset) => ({ buffer: 0, byteOffset, byteLength: 36 })
+  const accessor = (bufferView) => ({ bufferView, componentType: 5126, count: 3, type: 'VEC3', min: [0, 0, -1], max: [1, 1, 0] })
+  const file = path.join(folder, name)
+  fs.writeFileSync(file, JSON.stringify({
+    asset: { version: '2.0' },
+    scenes: [{ nodes: [0] }],
+    nodes,
+    meshes: [{ primitives: [{ attributes: { POSITION: 0, NORMAL: 1 } }] }],
+    accessors: [accessor(0), accessor(1)],
+    bufferViews: [view(0), view(36)],
+    buffers: [{ byteLength: 72, uri: `data:;base64,${Buffer.from(numbers.buffer).toString('base64')}` }],
+  }))
+  return file
+}
+
+const translation = [0, 0.001, 0]
+const deep = Array.from({ length: 10_000 }, (_, i) => ({ translation, children: [i + 1] }))
+const wide = Array.from({ length: 100_000 }, (_, i) => (
+  { name: `${i}`, translation: [2 * i, 0, 0], ...(i % 50_000 === 1 ? { mesh: 0 } : {}) }))
+for (const [name, nodes] of [
+  ['10,000 levels of nodes', [...deep, { mesh: 0 }]],
+  ['100,000 nodes side by side', [{ children: wide.map((_, i) => i + 1) }, ...wide]],
+]) {
+  test(`${name} are walked in no time and kept`, () => {
+    const input = write_nodes('many.gltf', nodes)
+    const output = path.join(folder, 'many.glb')
+    const { code, seconds, stderr } = run(input, output, ...cheapest, '--refine', 'none')
+    assert.equal(code, 0, stderr)
+    assert.ok(seconds < (sanitized() ? 60 : 10), `took ${seconds} s`)
+    check_nothing_is_lost(input, output)
+    const baked = primitives_of_scene(read_gltf(output))
+    assert.equal(baked.length, nodes.filter(({ mesh }) => mesh === 0).length)
+    for (const [, primitive] of baked) assert.notEqual(primitive.attributes.COLOR_0, undefined)
+  })
+}

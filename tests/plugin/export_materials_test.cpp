@@ -58,6 +58,18 @@ TEST(ExportMaterials, AnUnlitMaterialShowsNothingButBaseColour) {
   EXPECT_EQ(nlohmann::json(unlit_material(kEverything, imported(0, 0.75F))), nlohmann::json(expected));
 }
 
+TEST(ExportMaterials, TheDiffuseTextureOfSpecularGlossinessBecomesTheBaseColorTexture) {
+  Json source = Json::parse(R"({
+    "pbrMetallicRoughness": {"baseColorTexture": {"index": 1}},
+    "extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseTexture": {"index": 2, "texCoord": 1}}}
+  })");
+  const Json unlit = unlit_material(source, imported(0));
+  EXPECT_EQ(unlit["pbrMetallicRoughness"]["baseColorTexture"], Json::parse(R"({"index": 2, "texCoord": 1})"));
+  EXPECT_EQ(unlit["extensions"], Json::parse(R"({"KHR_materials_unlit": {}})"));
+  source["extensions"]["KHR_materials_pbrSpecularGlossiness"].erase("diffuseTexture");
+  EXPECT_FALSE(unlit_material(source, imported(0))["pbrMetallicRoughness"].contains("baseColorTexture"));
+}
+
 TEST(ExportMaterials, AFactorOfOneIsLeftOut) {
   EXPECT_FALSE(unlit_material(kEverything, imported(0))["pbrMetallicRoughness"].contains("baseColorFactor"));
 }

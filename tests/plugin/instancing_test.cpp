@@ -129,6 +129,10 @@ TEST(Instancing, WhatMakesNoSenseIsRefused) {
   builder.json["nodes"][0]["extensions"][kInstances]["attributes"] = {{"ROTATION", three}};
   EXPECT_EQ(refusal(builder), "nodes[0]: ROTATION of its instances cannot be VEC3");
   builder = two_tiles();
+  const std::size_t moved = builder.json["nodes"][0]["extensions"][kInstances]["attributes"]["TRANSLATION"];
+  builder.json["accessors"][moved].erase("bufferView");
+  EXPECT_EQ(refusal(builder), "nodes[0]: TRANSLATION of its instances has no data");
+  builder = two_tiles();
   builder.json["skins"] = Json::parse(R"([{"joints": [0]}])");
   builder.json["nodes"][0]["skin"] = 0;
   EXPECT_EQ(refusal(builder), "nodes[0]: EXT_mesh_gpu_instancing does not say where skinned copies stand");
