@@ -76,6 +76,9 @@ test('a bake of one scene leaves the others alone', async () => {
   const named = (name) => json.nodes.find((node) => node.name === name)
   assert.ok(is_baked(named('shared')) && is_baked(named('own')))
   assert.ok(!is_baked(named('plane')) && !is_baked(named('again')))
+  const few = ['--points', 50, '--max-samples', 64, '--progress', 'none']
+  assert.equal(run('verify', scene, target, '--scene', 1, ...few).code, 0, 'verify finds what is baked in that scene')
+  assert.equal(run('verify', scene, target, ...few).code, 1, 'and nothing in the other')
   const { code, lines } = run(scene, target, '--scene', 2, '--progress', 'none')
   assert.equal(code, 2)
   assert.match(lines[0], /--scene: there is no scene 2/)
