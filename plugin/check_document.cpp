@@ -132,6 +132,7 @@ class TreeChecker : private JsonChecker {
     if (error_) return;
     const Json* transform = extension_of(*info, "KHR_texture_transform");
     if (transform == nullptr) return;
+    if (!transform->is_object()) return fail(info_place, "KHR_texture_transform is not an object");
     numbers(*transform, "offset", 2, info_place);
     numbers(*transform, "scale", 2, info_place);
     number_if_present(*transform, "rotation", info_place);

@@ -75,10 +75,11 @@ std::size_t copy_count(const std::map<std::string, CopyAttribute>& attributes) {
 /// Turns one node into a parent of its copies.
 class CopyExpander {
  public:
-  CopyExpander(Document& document, std::size_t node) : root_(document.json), node_(node) {
-    attributes_ = read_attributes(document, node);
-    count_ = copy_count(attributes_);
-  }
+  CopyExpander(Document& document, std::size_t node)
+      : root_(document.json),
+        node_(node),
+        attributes_(read_attributes(document, node)),
+        count_(copy_count(attributes_)) {}
 
   /// Returns the node of the first copy; the others follow it.
   std::size_t run() {
@@ -150,7 +151,7 @@ class CopyExpander {
   Json& root_;
   std::size_t node_;
   std::map<std::string, CopyAttribute> attributes_;
-  std::size_t count_ = 0;
+  std::size_t count_;
 };
 
 }  // namespace

@@ -469,5 +469,56 @@ TEST(ImportScene, WhatCannotBeBakedIsSaid) {
   EXPECT_EQ(verdict(GltfBuilder()), "nothing to bake: the scene has no triangles");
 }
 
+/// A square of which every extension has something to say.
+GltfBuilder square_with_every_extension() {
+  GltfBuilder builder;
+  const std::size_t texture = builder.add_texture(1, 1, {255, 200, 100, 128});
+  builder.json["textures"][0]["extensions"]["EXT_texture_webp"]["source"] = 0;
+  Json info = {{"index", texture}};
+  info["extensions"]["KHR_texture_transform"] = {
+      {"offset", {1, 2}}, {"scale", {3, 4}}, {"rotation", 1}, {"texCoord", 0}};
+  const Json volume = {{"thicknessFactor", 1.0}, {"attenuationDistance", 1.0}, {"attenuationColor", {1.0, 0.5, 0.2}}};
+  Json material = {{"emissiveFactor", {1.0, 1.0, 1.0}}, {"emissiveTexture", info}};
+  material["extensions"] = {
+      {"KHR_materials_emissive_strength", {{"emissiveStrength", 2.0}}},
+      {"KHR_materials_pbrSpecularGlossiness",
+       {{"diffuseFactor", {1, 1, 1, 1}}, {"specularFactor", {1, 1, 1}}, {"diffuseTexture", info}}},
+      {"KHR_materials_transmission", {{"transmissionFactor", 0.5}, {"transmissionTexture", info}}},
+      {"KHR_materials_volume", volume},
+      {"KHR_materials_diffuse_transmission",
+       {{"diffuseTransmissionFactor", 0.5},
+        {"diffuseTransmissionColorFactor", {1, 1, 1}},
+        {"diffuseTransmissionTexture", info}}}};
+  PrimitiveParts parts = unit_square();
+  parts.material = builder.add_material(material);
+  Json node;
+  node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] =
+      builder.add_accessor(std::vector<glm::vec3>{{1, 0, 0}, {2, 0, 0}});
+  node["extensions"]["KHR_node_visibility"]["visible"] = true;
+  builder.add_node(builder.add_mesh(parts), node);
+  builder.json["animations"] = Json::parse(R"([{"channels": [{"target": {"node": 0, "path": "weights"}}]}])");
+  builder.add_light({{"type", "point"}});
+  return builder;
+}
+
+TEST(ImportScene, ReplacingAnyValueOfAnExtensionNeverCrashes) {
+  const GltfBuilder sound = square_with_every_extension();
+  EXPECT_EQ(verdict(sound), "fine");
+  std::size_t fine = 0, refused = 0;
+  const Json flat = sound.json.flatten();
+  for (const auto& [pointer, value] : flat.items()) {
+    for (const Json& other :
+         {Json(nullptr), Json(-1), Json(1e300), Json("x"), Json::array(), Json::object(), Json(3)}) {
+      for (auto at = Json::json_pointer(pointer); !at.empty(); at.pop_back()) {
+        GltfBuilder changed = sound;
+        changed.json[at] = other;
+        EXPECT_NO_THROW(++(verdict(changed) == "fine" ? fine : refused)) << at << " " << other;
+      }
+    }
+  }
+  EXPECT_GT(fine, 0U);
+  EXPECT_GT(refused, 0U);
+}
+
 }  // namespace
 }  // namespace gltf_radiosity

@@ -232,6 +232,37 @@ TEST(MeshoptDecode, WhatDoesNotAddUpIsRefusedBeforeMemoryIsAskedFor) {
   EXPECT_EQ(meshopt_verdict(builder), "bufferViews[0]: 61 compressed bytes cannot hold 1099511627776");
 }
 
+TEST(MeshoptDecode, ReplacingAnyValueNeverCrashes) {
+  const GltfBuilder sound = with_streams({plain_rows(kRows, 4), triangle_stream({0, 1, 2})});
+  std::size_t fine = 0, refused = 0;
+  const Json flat = sound.json.flatten();
+  for (const auto& [pointer, value] : flat.items()) {
+    if (pointer == "/buffers/0") continue;  // the builder's own
+    for (const Json& other :
+         {Json(nullptr), Json(-1), Json(1e300), Json("x"), Json::array(), Json::object(), Json(3)}) {
+      GltfBuilder changed = sound;
+      changed.json[Json::json_pointer(pointer)] = other;
+      ++(read_streams(changed) ? fine : refused);
+    }
+  }
+  EXPECT_GT(fine, 0U);
+  EXPECT_GT(refused, 0U);
+}
+
+TEST(MeshoptDecode, FlippedBytesNeverCrash) {
+  for (const StreamContent& content :
+       {plain_rows(Bytes(256, 5), 16), index_stream({5, 0, 99, 7}), triangle_stream({0, 1, 2, 2, 1, 3})}) {
+    for (std::size_t at = 0; at < content.encoded.size(); ++at) {
+      for (int bit = 0; bit < 8; ++bit) {
+        StreamContent flipped = content;
+        flipped.encoded[at] ^= static_cast<std::uint8_t>(1U << bit);
+        const auto document = read_streams(with_streams({flipped}));
+        EXPECT_TRUE(document || document.error().place == "bufferViews[0]");
+      }
+    }
+  }
+}
+
 TEST(MeshoptDecode, PlainDataInAPlaceholderIsRefused) {
   GltfBuilder builder = with_streams({plain_rows(kRows, 4)});
   builder.json["bufferViews"][0].erase("extensions");
