@@ -16,6 +16,7 @@
 #include "core/parallel.h"
 #include "plugin/attribute_grid.h"
 #include "plugin/compressible_primitives.h"
+#include "plugin/meshopt_decode.h"
 #include "plugin/used_extensions.h"
 
 namespace gltf_radiosity {

@@ -10,6 +10,7 @@
 
 #include "plugin/check_document.h"
 #include "plugin/draco_codec.h"
+#include "plugin/meshopt_decode.h"
 
 namespace gltf_radiosity {
 namespace {
@@ -112,6 +113,9 @@ Result<Done> load_buffers(Document& document, std::optional<ByteSpan> bin) {
       bytes = std::move(*read);
     } else if (i == 0 && bin) {
       bytes.assign(bin->begin(), bin->end());
+    } else if (is_placeholder(buffers[i])) {
+      document.buffers.emplace_back();
+      continue;
     } else if (length > 0) {
       return bad_input(place, "has neither a uri nor a binary chunk");
     }
@@ -151,6 +155,7 @@ Result<Document> make_document(ByteSpan bytes, const std::filesystem::path& fold
 
   // Data.
   if (auto loaded = load_buffers(document, container.bin); !loaded) return loaded.error();
+  if (auto decoded = decode_meshopt(document); !decoded) return decoded.error();
   if (auto checked = check_sparse_indices(document); !checked) return checked.error();
   if (auto checked = check_image_files(document); !checked) return checked.error();
   if (auto decoded = decode_draco(document); !decoded) return decoded.error();

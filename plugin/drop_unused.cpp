@@ -19,10 +19,11 @@ namespace {
 using Visit = std::function<void(Json&)>;
 
 /// Beginnings of names of extensions that refer to neither accessors nor bufferViews, or where this file looks.
-constexpr std::array<std::string_view, 16> kKnown = {
-    "KHR_materials_", "EXT_materials_", "ADOBE_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_",
-    "MSFT_packing_",  "KHR_lights_",    "EXT_lights_",      "KHR_xmp",      "MSFT_lod",     "KHR_mesh_quantization",
-    "KHR_draco_",     "EXT_meshopt_",   "KHR_animation_",   "EXT_mesh_gpu_"};
+constexpr std::array<std::string_view, 17> kKnown = {
+    "KHR_materials_", "EXT_materials_",        "ADOBE_materials_", "KHR_texture_", "EXT_texture_",
+    "MSFT_texture_",  "MSFT_packing_",         "KHR_lights_",      "EXT_lights_",  "KHR_xmp",
+    "MSFT_lod",       "KHR_mesh_quantization", "KHR_draco_",       "EXT_meshopt_", "KHR_animation_",
+    "EXT_mesh_gpu_",  "KHR_node_visibility"};
 
 bool is_known(std::string_view extension) {
   return std::any_of(kKnown.begin(), kKnown.end(),

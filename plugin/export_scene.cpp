@@ -15,6 +15,7 @@
 #include "plugin/export_colors.h"
 #include "plugin/export_materials.h"
 #include "plugin/export_meshes.h"
+#include "plugin/instancing.h"
 #include "plugin/output_style.h"
 #include "plugin/used_extensions.h"
 
@@ -22,8 +23,6 @@ namespace gltf_radiosity {
 namespace {
 
 using radiosity::Rgb;
-
-constexpr const char* kVariantsExtension = "KHR_materials_variants";
 
 /// How often each mesh is referred to by a member "mesh", anywhere in the tree.
 void count_mesh_references(const Json& value, std::map<std::size_t, std::size_t>& counts) {
@@ -34,20 +33,22 @@ void count_mesh_references(const Json& value, std::map<std::size_t, std::size_t>
 }
 
 /// Gives every node that receives light a mesh that no other node uses; returns the mesh of each instance.
-std::vector<std::size_t> separate_meshes(Json& root, const std::vector<PrimitiveInstance>& instances) {
+/// `nodes` are those of the instances.
+std::vector<std::size_t> separate_meshes(Json& root, const std::vector<PrimitiveInstance>& instances,
+                                         const std::vector<std::size_t>& nodes) {
   // Who is baked, and whether anybody else looks at the same mesh.
   std::map<std::size_t, std::set<std::size_t>> baked_nodes_of_mesh;
-  for (const PrimitiveInstance& instance : instances) {
-    if (instance.receives) baked_nodes_of_mesh[instance.mesh].insert(instance.node);
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    if (instances[i].receives) baked_nodes_of_mesh[instances[i].mesh].insert(nodes[i]);
   }
   std::map<std::size_t, std::size_t> references;
   count_mesh_references(root, references);
 
   // Copies, before anything is edited.
   std::map<std::size_t, std::size_t> mesh_of_node;
-  for (const auto& [mesh, nodes] : baked_nodes_of_mesh) {
-    bool in_place = references[mesh] == nodes.size();
-    for (const std::size_t node : nodes) {
+  for (const auto& [mesh, baked_nodes] : baked_nodes_of_mesh) {
+    bool in_place = references[mesh] == baked_nodes.size();
+    for (const std::size_t node : baked_nodes) {
       if (!std::exchange(in_place, false)) {
         Json copy = root["meshes"][mesh];
         root["meshes"].push_back(std::move(copy));
@@ -57,9 +58,9 @@ std::vector<std::size_t> separate_meshes(Json& root, const std::vector<Primitive
     }
   }
   std::vector<std::size_t> meshes;
-  for (const PrimitiveInstance& instance : instances) {
-    const auto own = mesh_of_node.find(instance.node);
-    meshes.push_back(own == mesh_of_node.end() ? instance.mesh : own->second);
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    const auto own = mesh_of_node.find(nodes[i]);
+    meshes.push_back(own == mesh_of_node.end() ? instances[i].mesh : own->second);
   }
   return meshes;
 }
@@ -67,8 +68,7 @@ std::vector<std::size_t> separate_meshes(Json& root, const std::vector<Primitive
 /// A variant would show a material that is not unlit.
 void drop_variants(Json& primitive, const PrimitiveInstance& instance, std::vector<Warning>& warnings) {
   if (!primitive.contains("extensions") || !primitive["extensions"].contains(kVariantsExtension)) return;
-  primitive["extensions"].erase(kVariantsExtension);
-  if (primitive["extensions"].empty()) primitive.erase("extensions");
+  remove_extension(primitive, kVariantsExtension);
   warnings.push_back({"variants-dropped", place_of_primitive(instance.mesh, instance.primitive),
                       "the material variants of this primitive were dropped, the default one was baked"});
 }
@@ -100,11 +100,18 @@ std::optional<Json> baked_material(const Json& source, const ImportedMaterial& m
                                    Target target) {
   if (target == Target::kUnlit) return unlit_material(source, material, factor);
   if (factor == Rgb(1.0F)) return std::nullopt;
-  return dimmed_material(source, material, factor);
+  return dimmed_material(source, factor);
+}
+
+/// What shows its light can no longer be seen through.
+void warn_of_transmission(const ImportedMaterial& material, std::vector<Warning>& warnings) {
+  if (!material.source || !material.transmission) return;
+  warnings.push_back({"transmission-opaque", place_of("materials", *material.source),
+                      "lets light through, but once baked nothing is seen through it: unlit knows no transmission"});
 }
 
 void assign_materials(Document& document, const ImportedScene& scene, const std::vector<BakedPrimitive>& primitives,
-                      Target target) {
+                      Target target, std::vector<Warning>& warnings) {
   // What stays as it is, and what others look at.
   Json& root = document.json;
   const Json sources = root.value("materials", Json::array());
@@ -128,6 +135,9 @@ void assign_materials(Document& document, const ImportedScene& scene, const std:
     if (!change) continue;
     const auto key = std::tuple(baked.material, baked.factor.x, baked.factor.y, baked.factor.z);
     if (!known.contains(key)) {
+      if (target == Target::kUnlit && version_count[baked.material] == 0) {
+        warn_of_transmission(scene.materials[baked.material], warnings);
+      }
       // Importers that keep materials in files of their own tell them apart by name.
       const std::size_t version = ++version_count[baked.material];
       if (version > 1 && change->contains("name") && (*change)["name"].is_string()) {
@@ -179,7 +189,8 @@ ExportReport export_scene(Document& document, BufferBuilder& buffer, const Impor
   // Geometry and colours.
   const OutputStyle style = output_style(options);
   std::vector<BakedPrimitive> baked;
-  const std::vector<std::size_t> meshes = separate_meshes(document.json, scene.instances);
+  const std::vector<std::size_t> nodes = expand_copies(document, scene.instances);
+  const std::vector<std::size_t> meshes = separate_meshes(document.json, scene.instances, nodes);
   for (std::size_t i = 0; i < refined.size(); ++i) {
     const PrimitiveInstance& instance = scene.instances[i];
     count(instance, refined[i], report);
@@ -197,7 +208,7 @@ ExportReport export_scene(Document& document, BufferBuilder& buffer, const Impor
     primitive_json(document.json, baked.back()) = std::move(primitive);
   }
 
-  assign_materials(document, scene, baked, options.target);
+  assign_materials(document, scene, baked, options.target, warnings);
   sign(document.json, report, options);
   return report;
 }

@@ -22,8 +22,8 @@ struct ExportReport {
 
 /// Gives every primitive instance that receives light its COLOR_0, an unlit material (or what options.target says) and,
 /// where it was subdivided, its new geometry; new data goes into `buffer`. A mesh stays where it is for its first baked
-/// node if only baked nodes use it; other nodes get copies. What was done goes into asset.extras.radiosity, warnings
-/// into `warnings`.
+/// node if only baked nodes use it; other nodes get copies. Instanced copies become nodes (instancing.h). What was done
+/// goes into asset.extras.radiosity, warnings into `warnings`.
 ExportReport export_scene(Document& document, BufferBuilder& buffer, const ImportedScene& scene,
                           const radiosity::Bake& bake, const Options& options, std::vector<Warning>& warnings);
 

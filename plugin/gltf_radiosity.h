@@ -43,6 +43,7 @@ struct Sun {
 
 /// Every option of a bake. The defaults are what the command line's --help prints.
 struct Options {
+  std::optional<std::uint32_t> scene;  ///< which scene of the file, counted from 0; none: its default one, or the first
   // Mesh
   Refine refine = Refine::kAdaptive;
   double patch_size = 0.0;         ///< longest edge of the baked mesh, metres; 0 chooses one that suits the scene

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "plugin/compress_meshopt.h"
+#include "plugin/meshopt_decode.h"
 
 namespace gltf_radiosity {
 namespace {

@@ -252,6 +252,7 @@ struct Parser {
     app.formatter(std::make_shared<HelpFormatter>());
     app.footer(std::string(kHelpFooter));
     add_files(app, line);
+    add_scene_option(app, line.options);
     add_mesh_options(app, line.options);
     add_node_options(app, line.options);
     add_light_options(app, line.options);

@@ -3,9 +3,9 @@ import assert from 'node:assert/strict'
 import fs from 'node:fs'
 import path from 'node:path'
 import test from 'node:test'
-import { check_baked, colors_of, has_triangles } from './baked.mjs'
-import { bake, cheapest, temporary_folder, test_asset } from './command_line.mjs'
-import { primitives_of_scene, read_accessor, read_gltf, triangles_of } from './gltf_file.mjs'
+import { check_baked, check_nothing_is_lost, colors_of, has_triangles } from './baked.mjs'
+import { bake, cheapest, run, sanitized, temporary_folder, test_asset } from './command_line.mjs'
+import { primitives_of_scene, read_accessor, read_gltf, to_glb, triangles_of, view_bytes } from './gltf_file.mjs'
 
 const folder = temporary_folder()
 
@@ -34,6 +34,54 @@ test('integers beyond 53 bits, null, empty objects and tiny numbers in extras su
   const count = (file) => fs.readFileSync(file, 'latin1').split('9007199254740993').length
   assert.ok(count(path.join(folder, 'extras.glb')) >= count(test_asset('extras_everywhere.glb')))
   assert.equal(output.json.scenes.length, input.json.scenes.length)
+})
+
+test('the comparison of trees and bytes sees what is lost', async () => {
+  const target = path.join(folder, 'whole.glb')
+  const scene = test_asset('torture.gltf')
+  bake(scene, target, ...cheapest, '--refine', 'none')
+  check_nothing_is_lost(scene, target)
+  const { json, buffers: [binary] } = read_gltf(target)
+  const losses = {
+    'an extra': (tree) => { delete tree.samplers[0].extras.none },
+    'an empty object': (tree) => { delete tree.asset.extras.empty },
+    'an unknown extension': (tree) => { delete tree.animations[0].samplers[0].extensions },
+    'an animation pointer': (tree) => { tree.animations[0].channels[2].target.extensions.KHR_animation_pointer.pointer = '' },
+    'a name': (tree) => { tree.images[2].name = 'x' },
+    'a camera': (tree) => { tree.cameras.pop() },
+    'another scene': (tree) => { tree.scenes.pop() },
+    'a joint': (tree) => { tree.skins[0].joints.pop() },
+    'a texture of a material that is not baked': (tree) => { delete tree.materials[2].occlusionTexture },
+    'the colour of an unlit material': (tree) => { tree.materials[1].pbrMetallicRoughness.baseColorFactor[0] = 1 },
+    'a declaration': (tree) => { tree.extensionsUsed.shift() },
+    'the name of a copied mesh': (tree) => { tree.meshes.at(-1).name = 'x' },
+    'a byte': (tree, bytes) => { bytes[view_bytes({ json: tree, buffers: [bytes] }, 0).byteOffset - bytes.byteOffset] ^= 1 },
+  }
+  for (const [what, lose] of Object.entries(losses)) {
+    const [tree, bytes] = [structuredClone(json), Buffer.from(binary)]
+    lose(tree, bytes)
+    const damaged = path.join(folder, 'damaged.glb')
+    fs.writeFileSync(damaged, to_glb(tree, bytes))
+    assert.throws(() => check_nothing_is_lost(scene, damaged), assert.AssertionError, `${what} went unnoticed`)
+  }
+})
+
+test('a bake of one scene leaves the others alone', async () => {
+  const target = path.join(folder, 'second.glb')
+  const scene = test_asset('torture.gltf')
+  bake(scene, target, ...cheapest, '--scene', 1, '--refine', 'none')
+  check_nothing_is_lost(scene, target)
+  const { json } = read_gltf(target)
+  const is_baked = ({ mesh }) => json.meshes[mesh].primitives.every(({ attributes }) => attributes.COLOR_0 !== undefined)
+  const named = (name) => json.nodes.find((node) => node.name === name)
+  assert.ok(is_baked(named('shared')) && is_baked(named('own')))
+  assert.ok(!is_baked(named('plane')) && !is_baked(named('again')))
+  const few = ['--points', 50, '--max-samples', 64, '--progress', 'none']
+  assert.equal(run('verify', scene, target, '--scene', 1, ...few).code, 0, 'verify finds what is baked in that scene')
+  assert.equal(run('verify', scene, target, ...few).code, 1, 'and nothing in the other')
+  const { code, lines } = run(scene, target, '--scene', 2, '--progress', 'none')
+  assert.equal(code, 2)
+  assert.match(lines[0], /--scene: there is no scene 2/)
 })
 
 test('a mesh that was unlit stays as it was', async () => {
@@ -138,3 +186,42 @@ test('integer colours are the float colours, rounded; 8 bits up or down', async 
     values.forEach((value, k) => assert.ok(Math.abs(value - reference[k]) <= step))
   }
 })
+
+// A triangle in a .gltf with these nodes.
+function write_nodes(name, nodes) {
+  const numbers = new Float32Array([0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 1, 0, 0, 1, 0, 0, 1, 0])
+  const view = (byteOffset) => ({ buffer: 0, byteOffset, byteLength: 36 })
+  const accessor = (bufferView) => ({ bufferView, componentType: 5126, count: 3, type: 'VEC3', min: [0, 0, -1], max: [1, 1, 0] })
+  const file = path.join(folder, name)
+  fs.writeFileSync(file, JSON.stringify({
+    asset: { version: '2.0' },
+    scenes: [{ nodes: [0] }],
+    nodes,
+    meshes: [{ primitives: [{ attributes: { POSITION: 0, NORMAL: 1 } }] }],
+    accessors: [accessor(0), accessor(1)],
+    bufferViews: [view(0), view(36)],
+    buffers: [{ byteLength: 72, uri: `data:;base64,${Buffer.from(numbers.buffer).toString('base64')}` }],
+  }))
+  return file
+}
+
+const translation = [0, 0.001, 0]
+const deep = Array.from({ length: 10_000 }, (_, i) => ({ translation, children: [i + 1] }))
+const wide = Array.from({ length: 100_000 }, (_, i) => (
+  { name: `${i}`, translation: [2 * i, 0, 0], ...(i % 50_000 === 1 ? { mesh: 0 } : {}) }))
+for (const [name, nodes] of [
+  ['10,000 levels of nodes', [...deep, { mesh: 0 }]],
+  ['100,000 nodes side by side', [{ children: wide.map((_, i) => i + 1) }, ...wide]],
+]) {
+  test(`${name} are walked in no time and kept`, () => {
+    const input = write_nodes('many.gltf', nodes)
+    const output = path.join(folder, 'many.glb')
+    const { code, seconds, stderr } = run(input, output, ...cheapest, '--refine', 'none')
+    assert.equal(code, 0, stderr)
+    assert.ok(seconds < (sanitized() ? 60 : 10), `took ${seconds} s`)
+    check_nothing_is_lost(input, output)
+    const baked = primitives_of_scene(read_gltf(output))
+    assert.equal(baked.length, nodes.filter(({ mesh }) => mesh === 0).length)
+    for (const [, primitive] of baked) assert.notEqual(primitive.attributes.COLOR_0, undefined)
+  })
+}
