@@ -139,8 +139,8 @@ std::vector<VertexColors> vertex_colors(const ImportedScene& scene, const radios
   return colors;
 }
 
-std::size_t export_color_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors, float k,
-                                  ColorType type) {
+std::size_t export_color_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors,
+                                  std::span<const std::uint32_t> kept, float k, ColorType type) {
   // Expose and clamp; what is no number becomes black.
   const auto clamped = [](float value) { return value > 0.0F ? std::min(value, 1.0F) : 0.0F; };
   std::vector<float> values;
@@ -157,7 +157,7 @@ std::size_t export_color_accessor(Document& document, BufferBuilder& buffer, con
   const bool normalized = type != ColorType::kFloat;
   const RawAccessor raw{component, 4, normalized, colors.unexposed.size(),
                         encode_floats(values, component, normalized)};
-  return append_accessor(document, buffer, raw, BufferTarget::kVertices);
+  return append_accessor(document, buffer, picked(raw, kept), BufferTarget::kVertices);
 }
 
 }  // namespace gltf_radiosity

@@ -30,8 +30,9 @@ struct VertexColors {
 std::vector<VertexColors> vertex_colors(const ImportedScene& scene, const radiosity::Bake& bake,
                                         std::span<const RefinedPrimitive> refined);
 
-/// Appends an accessor with k x colours clamped to [0,1] and returns its index.
-std::size_t export_color_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors, float k,
-                                  ColorType type);
+/// Appends an accessor with k x colours clamped to [0,1] and returns its index. Only the vertices `kept` are written,
+/// all if that is empty.
+std::size_t export_color_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors,
+                                  std::span<const std::uint32_t> kept, float k, ColorType type);
 
 }  // namespace gltf_radiosity

@@ -115,20 +115,27 @@ void sign(Json& root, const ExportReport& report) {
 
 void count(const PrimitiveInstance& instance, const RefinedPrimitive& refined, ExportReport& report) {
   report.triangles += instance.receives ? refined.triangles.size() : instance.triangle_count;
-  report.vertices += instance.receives ? refined.vertices.size() : instance.vertex_count;
+  report.vertices += instance.receives ? refined.written_vertex_count() : instance.vertex_count;
 }
 
 }  // namespace
 
 ExportReport export_scene(Document& document, BufferBuilder& buffer, const ImportedScene& scene,
-                          const radiosity::Bake& bake, const Options& options, std::vector<Warning>& warnings) {
+                          const radiosity::Bake& bake, const Options& options, std::vector<Warning>& warnings,
+                          const radiosity::Progress& progress) {
   // One exposure for everything.
   ExportReport report;
-  const std::vector<RefinedPrimitive> refined = split_by_instance(bake.mesh, scene);
+  std::vector<RefinedPrimitive> refined = split_by_instance(bake.mesh, scene);
   const std::vector<VertexColors> colors = vertex_colors(scene, bake, refined);
   const float k = exposure(colors, options, report);
 
+  // Only what is needed.
+  if (options.simplify) {
+    report.simplified = simplify_scene(document, scene, bake, colors, k, options, refined, progress);
+  }
+
   // Geometry and colours.
+  progress.update("export", 0.0);
   std::vector<BakedPrimitive> baked;
   const std::vector<std::size_t> meshes = separate_meshes(document.json, scene.instances);
   for (std::size_t i = 0; i < refined.size(); ++i) {
@@ -139,7 +146,8 @@ ExportReport export_scene(Document& document, BufferBuilder& buffer, const Impor
     Json primitive = primitive_json(document.json, baked.back());
     drop_variants(primitive, instance, warnings);
     if (refined[i].changed) export_geometry(document, buffer, instance, refined[i], primitive);
-    primitive["attributes"]["COLOR_0"] = export_color_accessor(document, buffer, colors[i], k, options.color_type);
+    primitive["attributes"]["COLOR_0"] =
+        export_color_accessor(document, buffer, colors[i], refined[i].kept, k, options.color_type);
     primitive_json(document.json, baked.back()) = std::move(primitive);
   }
 

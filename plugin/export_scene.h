@@ -8,6 +8,7 @@
 #include "plugin/append_accessor.h"
 #include "plugin/document.h"
 #include "plugin/import_scene.h"
+#include "plugin/simplify_scene.h"
 
 namespace gltf_radiosity {
 
@@ -17,12 +18,15 @@ struct ExportReport {
   double clipped_share = 0.0;   ///< of the baked area
   std::uint64_t triangles = 0;  ///< of all instances, as stored
   std::uint64_t vertices = 0;
+  SimplifyReport simplified;
 };
 
 /// Gives every primitive instance that receives light its COLOR_0, an unlit material and, where it was subdivided, its
 /// new geometry; new data goes into `buffer`. A mesh stays where it is for its first baked node if only baked nodes use
-/// it; other nodes get copies. What was done goes into asset.extras.radiosity, warnings into `warnings`.
+/// it; other nodes get copies. What was done goes into asset.extras.radiosity, warnings into `warnings`. Throws
+/// `Cancelled`.
 ExportReport export_scene(Document& document, BufferBuilder& buffer, const ImportedScene& scene,
-                          const radiosity::Bake& bake, const Options& options, std::vector<Warning>& warnings);
+                          const radiosity::Bake& bake, const Options& options, std::vector<Warning>& warnings,
+                          const radiosity::Progress& progress);
 
 }  // namespace gltf_radiosity

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/bake.h"
+#include "core/parallel.h"
 #include "plugin/check_options.h"
 #include "plugin/document.h"
 #include "plugin/export_scene.h"
@@ -109,8 +110,10 @@ Result<Report> bake_document(Document& document, BufferBuilder& added, const Opt
   add_warnings(bake.report, report.warnings);
 
   // Export.
-  progress.update("export", 0.0);
-  add_figures(export_scene(document, added, *scene, bake, options, report.warnings), report);
+  const auto export_here = [&] {
+    return export_scene(document, added, *scene, bake, options, report.warnings, progress);
+  };
+  add_figures(radiosity::on_threads(options.threads, export_here), report);
   progress.update("export", 1.0);
   return report;
 }

@@ -84,6 +84,10 @@ void add_mesh_options(CLI::App& app, Options& options) {
       ->type_name("NAME=LEVEL")
       ->default_str("none")
       ->allow_extra_args(false);
+  app.add_flag_callback(
+      "--simplify", [&options] { options.simplify = true; },
+      "Leave out vertices that neither shape, attributes nor light need; nowhere does the light change by more than "
+      "--max-error of its mean (default: off)");
 }
 
 void add_quality(CLI::App& app, std::optional<int>& quality) {

@@ -179,7 +179,7 @@ TEST(ExportColors, WhatDoesNotReceiveHasNoColours) {
 std::vector<float> stored(const VertexColors& colors, float k, ColorType type, Json* accessor = nullptr) {
   Document document;
   BufferBuilder added;
-  const std::size_t index = export_color_accessor(document, added, colors, k, type);
+  const std::size_t index = export_color_accessor(document, added, colors, {}, k, type);
   document.buffers.push_back(added.bytes());
   if (accessor != nullptr) *accessor = document.json["accessors"][index];
   return as_floats(read_accessor(document, index));

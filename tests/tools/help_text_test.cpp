@@ -56,30 +56,44 @@ std::vector<Command> commands() { return {{help_text(), "command-line.md"}, {ver
 TEST(HelpText, DescribesEveryOption) {
   const std::set<std::string> names = matches(help_text(), "\n  (?:-h,)?(--[a-z0-9-]+)");
   const std::set<std::string> expected = {
-      "--refine",     "--patch-size",   "--subdivide",  "--sky",          "--sun",        "--no-default-sky",
-      "--metals",     "--quality",      "--hemicube",   "--max-patches",  "--residual",   "--visibility",
-      "--solver",     "--fit",          "--max-memory", "--threads",      "--exposure",   "--ev100",
-      "--color-type", "--json",         "--progress",   "--light-units",  "--config",     "--version",
-      "--help",       "--sky-rotation", "--max-error",  "--max-vertices", "--error-space"};
+      "--refine",     "--patch-size",   "--subdivide",  "--sky",          "--sun",         "--no-default-sky",
+      "--metals",     "--quality",      "--hemicube",   "--max-patches",  "--residual",    "--visibility",
+      "--solver",     "--fit",          "--max-memory", "--threads",      "--exposure",    "--ev100",
+      "--color-type", "--json",         "--progress",   "--light-units",  "--config",      "--version",
+      "--help",       "--sky-rotation", "--max-error",  "--max-vertices", "--error-space", "--simplify"};
   EXPECT_EQ(names, expected);
 }
 
 TEST(HelpText, StatesTheDefaultsOfTheLibrary) {
   const Options library;
   const std::vector<std::pair<std::string, std::string>> expected = {
-      {"--refine", "adaptive"},   {"--max-error", fmt::format("{}", library.max_error)},
-      {"--max-vertices", "auto"}, {"--error-space", "display"},
-      {"--patch-size", "auto"},   {"--subdivide", "none"},
-      {"--sky", "none"},          {"--sky-rotation", fmt::format("{}", library.sky_rotation_degrees)},
-      {"--sun", "none"},          {"--no-default-sky", "off"},
-      {"--metals", "diffuse"},    {"--light-units", "auto"},
-      {"--quality", "medium"},    {"--hemicube", fmt::format("{}", library.hemicube)},
-      {"--max-patches", "auto"},  {"--residual", fmt::format("{}", library.residual)},
-      {"--visibility", "auto"},   {"--solver", "gathering"},
-      {"--fit", "least-squares"}, {"--max-memory", "75 %"},
-      {"--threads", "0"},         {"--exposure", "auto"},
-      {"--ev100", "none"},        {"--color-type", "float"},
-      {"--json", "none"},         {"--progress", "auto"},
+      {"--refine", "adaptive"},
+      {"--max-error", fmt::format("{}", library.max_error)},
+      {"--max-vertices", "auto"},
+      {"--error-space", "display"},
+      {"--patch-size", "auto"},
+      {"--subdivide", "none"},
+      {"--simplify", "off"},
+      {"--sky", "none"},
+      {"--sky-rotation", fmt::format("{}", library.sky_rotation_degrees)},
+      {"--sun", "none"},
+      {"--no-default-sky", "off"},
+      {"--metals", "diffuse"},
+      {"--light-units", "auto"},
+      {"--quality", "medium"},
+      {"--hemicube", fmt::format("{}", library.hemicube)},
+      {"--max-patches", "auto"},
+      {"--residual", fmt::format("{}", library.residual)},
+      {"--visibility", "auto"},
+      {"--solver", "gathering"},
+      {"--fit", "least-squares"},
+      {"--max-memory", "75 %"},
+      {"--threads", "0"},
+      {"--exposure", "auto"},
+      {"--ev100", "none"},
+      {"--color-type", "float"},
+      {"--json", "none"},
+      {"--progress", "auto"},
       {"--config", "none"},
   };
   for (const auto& [option, preset] : expected) {
