@@ -196,14 +196,14 @@ Columns columns_of(const Document& document, const PrimitiveInstance& instance, 
 
 }  // namespace
 
-MeanColor mean_color(std::span<const VertexColors> colors, float k) {
+MeanColor mean_color(const ExposedColors& colors) {
   MeanColor mean;
   double sum = 0.0;
-  for (const VertexColors& primitive : colors) {
+  for (const VertexColors& primitive : colors.of_instance) {
     for (std::size_t v = 0; v < primitive.samples.size(); ++v) {
       const auto area = static_cast<double>(primitive.samples[v].area);
       mean.area += area;
-      sum += area * static_cast<double>(radiosity::luminance_of(exposed(primitive, v, k)));
+      sum += area * static_cast<double>(radiosity::luminance_of(exposed(primitive, v, colors.k)));
     }
   }
   if (mean.area > 0.0) mean.luminance = sum / mean.area;
@@ -211,7 +211,7 @@ MeanColor mean_color(std::span<const VertexColors> colors, float k) {
 }
 
 Carried carried_attributes(const Document& document, const ImportedScene& scene, const radiosity::RefinedMesh& mesh,
-                           std::span<const RefinedPrimitive> refined, std::span<const VertexColors> colors, float k,
+                           std::span<const RefinedPrimitive> refined, const ExposedColors& colors,
                            const Options& options) {
   const std::size_t count = mesh.positions.size();
   Carried carried;
@@ -220,7 +220,7 @@ Carried carried_attributes(const Document& document, const ImportedScene& scene,
   carried.shape_tolerance.assign(count, kTiny);
   carried.label.assign(count, 0);
   carried.fixed.assign(count, 1);
-  const auto mean = static_cast<float>(mean_color(colors, k).luminance);
+  const auto mean = static_cast<float>(mean_color(colors).luminance);
   const float allowed = static_cast<float>(options.max_error) * mean;
   const float scene_extent = extent_of({&mesh.positions.data()->x, 3 * count});
 
@@ -236,11 +236,11 @@ Carried carried_attributes(const Document& document, const ImportedScene& scene,
     for (const std::uint32_t v : vertices) points.insert(points.end(), &mesh.positions[v].x, &mesh.positions[v].x + 3);
     const float extent = std::max(extent_of(points), kTiny);
     const float shape = std::max(kTiny, std::min(kShapeOfInstance * extent, kShapeOfScene * scene_extent));
-    columns.back() = columns_of(document, scene.instances[i], refined[i], colors[i], shape / extent);
+    columns.back() = columns_of(document, scene.instances[i], refined[i], colors.of_instance[i], shape / extent);
     std::uint32_t last_label = 0;
     for (std::size_t row = 0; row < vertices.size(); ++row) {
       const std::uint32_t v = vertices[row];
-      carried.light[v] = exposed(colors[i], row, k);
+      carried.light[v] = exposed(colors.of_instance[i], row, colors.k);
       const float eye = options.error_space == ErrorSpace::kLinear || !(mean > 0.0F)
                             ? 1.0F
                             : std::sqrt(0.5F * (1.0F + radiosity::luminance_of(carried.light[v]) / mean));

@@ -13,17 +13,23 @@
 
 namespace gltf_radiosity {
 
-/// How bright the baked surfaces show on average, as exposed: COLOR_0's luminance and where they are, m2.
+/// COLOR_0 of all vertices, by instance, and the exposure k, m2/cd.
+struct ExposedColors {
+  std::span<const VertexColors> of_instance;
+  float k = 1.0F;
+};
+
+/// How bright the baked surfaces show on average, as exposed and cut off at white, and how large they are, m2.
 struct MeanColor {
   double luminance = 0.0;
   double area = 0.0;
 };
-MeanColor mean_color(std::span<const VertexColors> colors, float k);
+MeanColor mean_color(const ExposedColors& colors);
 
 /// Carries every attribute and morph target of every instance that receives light; the vertices of others are fixed.
 /// Tolerances:
 ///
-/// - light: `max_error` of the mean COLOR_0, as exposed by `k` and cut off at white; with ErrorSpace::kDisplay less in
+/// - light: `max_error` of the mean COLOR_0, as exposed and cut off at white; with ErrorSpace::kDisplay less in
 ///   the dark, down to 0.7 of it
 /// - shape: 1/10000 of the instance's extent, but 1/50000 of the scene's at most; for morph targets the same
 /// - normals and tangents: 0.01; texture coordinates: 1/2048; colours and weights: 1/256; other values: 1/1024 of their
@@ -32,6 +38,6 @@ MeanColor mean_color(std::span<const VertexColors> colors, float k);
 /// Integers that name something, and the joints that a vertex follows, are labels.
 radiosity::Carried carried_attributes(const Document& document, const ImportedScene& scene,
                                       const radiosity::RefinedMesh& mesh, std::span<const RefinedPrimitive> refined,
-                                      std::span<const VertexColors> colors, float k, const Options& options);
+                                      const ExposedColors& colors, const Options& options);
 
 }  // namespace gltf_radiosity

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "core/mesh/simplify.h"
-#include "plugin/carried_attributes.h"
 
 namespace gltf_radiosity {
 namespace {
@@ -42,12 +41,12 @@ void shrink(const radiosity::Simplified& simplified, std::size_t first, std::siz
 }  // namespace
 
 SimplifyReport simplify_scene(const Document& document, const ImportedScene& scene, const radiosity::Bake& bake,
-                              std::span<const VertexColors> colors, float k, const Options& options,
+                              const ExposedColors& colors, const Options& options,
                               std::vector<RefinedPrimitive>& refined, const radiosity::Progress& progress) {
   progress.update("simplify", 0.0);
   const radiosity::RefinedMesh& mesh = bake.mesh;
   const radiosity::Simplified simplified =
-      radiosity::simplify(mesh, carried_attributes(document, scene, mesh, refined, colors, k, options), progress);
+      radiosity::simplify(mesh, carried_attributes(document, scene, mesh, refined, colors, options), progress);
 
   // Elements come in the order of the instances.
   SimplifyReport report;
@@ -64,7 +63,7 @@ SimplifyReport simplify_scene(const Document& document, const ImportedScene& sce
     shrink(simplified, first, element, scene.instances[i].mirrored, output_of, refined[i]);
     report.removed_vertices += refined[i].vertices.size() - refined[i].written_vertex_count();
   }
-  const MeanColor mean = mean_color(colors, k);
+  const MeanColor mean = mean_color(colors);
   if (mean.luminance > 0.0) {
     report.light_change = std::sqrt(simplified.squared_light_change / mean.area) / mean.luminance;
   }

@@ -2,13 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "core/bake.h"
 #include "core/progress.h"
+#include "plugin/carried_attributes.h"
 #include "plugin/document.h"
-#include "plugin/export_colors.h"
 #include "plugin/export_meshes.h"
 #include "plugin/import_scene.h"
 
@@ -20,10 +19,10 @@ struct SimplifyReport {
 };
 
 /// Takes out of `refined` the vertices that nothing needs (core/mesh/simplify.h, carried_attributes.h): fills in `kept`
-/// and replaces `triangles` and `elements` of instances that lose any. `colors` [refined.size()] are those of all
-/// vertices, exposed by `k`; they stay. Throws `Cancelled`.
+/// and replaces `triangles` and `elements` of instances that lose any. `colors` stay those of all vertices. Throws
+/// `Cancelled`.
 SimplifyReport simplify_scene(const Document& document, const ImportedScene& scene, const radiosity::Bake& bake,
-                              std::span<const VertexColors> colors, float k, const Options& options,
+                              const ExposedColors& colors, const Options& options,
                               std::vector<RefinedPrimitive>& refined, const radiosity::Progress& progress);
 
 }  // namespace gltf_radiosity
