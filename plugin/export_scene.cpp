@@ -171,22 +171,29 @@ void sign(Json& root, const ExportReport& report, const Options& options) {
 void count(const PrimitiveInstance& instance, const RefinedPrimitive& refined, ExportReport& report) {
   report.triangles += instance.receives ? refined.triangles.size() : instance.triangle_count;
   report.baked_triangles += instance.receives ? refined.triangles.size() : 0;
-  report.vertices += instance.receives ? refined.vertices.size() : instance.vertex_count;
+  report.vertices += instance.receives ? refined.written_vertex_count() : instance.vertex_count;
 }
 
 }  // namespace
 
 ExportReport export_scene(Document& document, BufferBuilder& buffer, const ImportedScene& scene,
-                          const radiosity::Bake& bake, const Options& options, std::vector<Warning>& warnings) {
+                          const radiosity::Bake& bake, const Options& options, std::vector<Warning>& warnings,
+                          const radiosity::Progress& progress) {
   // One exposure for everything.
   ExportReport report;
-  const std::vector<RefinedPrimitive> refined = split_by_instance(bake.mesh, scene);
+  std::vector<RefinedPrimitive> refined = split_by_instance(bake.mesh, scene);
   const bool unlit = options.target == Target::kUnlit;
   const ColorParts parts{unlit, unlit && options.bake != BakedLight::kIndirect};
   const std::vector<VertexColors> colors = vertex_colors(scene, bake, refined, parts);
   const float k = exposure(colors, options, report);
 
+  // Only what is needed.
+  if (options.simplify) {
+    report.simplified = simplify_scene(document, scene, bake, {colors, k}, options, refined, progress);
+  }
+
   // Geometry and colours.
+  progress.update("export", 0.0);
   const OutputStyle style = output_style(options);
   std::vector<BakedPrimitive> baked;
   const std::vector<std::size_t> nodes = expand_copies(document, scene.instances);
@@ -195,15 +202,16 @@ ExportReport export_scene(Document& document, BufferBuilder& buffer, const Impor
     const PrimitiveInstance& instance = scene.instances[i];
     count(instance, refined[i], report);
     if (!instance.receives) continue;
-    const Rgb factor = style.scale_to_factor ? brightest(colors[i], k) : Rgb(1.0F);
+    const Rgb factor = style.scale_to_factor ? brightest(colors[i], refined[i].kept, k) : Rgb(1.0F);
     baked.push_back({meshes[i], instance.primitive, instance.material, factor});
     Json primitive = primitive_json(document.json, baked.back());
     if (unlit || factor != Rgb(1.0F)) drop_variants(primitive, instance, warnings);
     if (refined[i].changed) export_geometry(document, buffer, instance, refined[i], primitive);
     primitive["attributes"]["COLOR_0"] =
-        export_color_accessor(document, buffer, colors[i], k / factor, style.color_type);
+        export_color_accessor(document, buffer, colors[i], refined[i].kept, k / factor, style.color_type);
     if (!options.radiance_attribute.empty()) {
-      primitive["attributes"][radiance_semantic(options)] = export_radiance_accessor(document, buffer, colors[i], k);
+      primitive["attributes"][radiance_semantic(options)] =
+          export_radiance_accessor(document, buffer, colors[i], refined[i].kept, k);
     }
     primitive_json(document.json, baked.back()) = std::move(primitive);
   }

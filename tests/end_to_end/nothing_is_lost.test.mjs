@@ -110,6 +110,29 @@ for (const refine of ['none', 'uniform']) {
   }
 }
 
+test('--simplify leaves out what is not needed and moves nothing that stays', async () => {
+  const [one, two] = ['1', '2'].map((threads) => path.join(folder, `simplified_${threads}.glb`))
+  const bake_on = (threads, target) => bake(test_asset('cornell_box_1500.glb'), target, ...cheapest,
+    '--refine', 'none', '--simplify', '--max-error', 0.1, '--threads', threads)
+  const report = bake_on(1, one)
+  const { input, output } = await check_baked(test_asset('cornell_box_1500.glb'), one)
+  assert.ok(report.outputVertices < report.inputVertices / 2, `${report.outputVertices} of ${report.inputVertices}`)
+  assert.equal(report.removedVertices, report.inputVertices - report.outputVertices)
+  areas(input).forEach((area, k) => assert.ok(Math.abs(areas(output)[k] / area - 1) < 1e-4, `primitive ${k}`))
+
+  const primitives = [input, output].map((gltf) => primitives_of_scene(gltf).map(([, primitive]) => primitive))
+  primitives[1].forEach((primitive, k) => {
+    for (const semantic of ['POSITION', 'NORMAL']) {
+      const rows = (gltf, { attributes }) => read_accessor(gltf, attributes[semantic]).map(String)
+      const known = new Set(rows(input, primitives[0][k]))
+      for (const row of rows(output, primitive)) assert.ok(known.has(row), `${semantic} ${row} of primitive ${k}`)
+    }
+  })
+
+  bake_on(2, two)
+  assert.ok(fs.readFileSync(one).equals(fs.readFileSync(two)), 'one thread and two write the same')
+})
+
 test('skins, weights and morph targets follow the subdivision', async () => {
   const fine = ['--refine', 'uniform', '--patch-size', 0.06]
   const { input, output } = await baked('skinned_and_morphed.glb', 'moving.glb', ...fine)

@@ -32,7 +32,7 @@ Exported exported(const GltfBuilder& builder, int levels = 0, const Options& opt
   HandBake hand = bake_by_hand(builder, levels, kWhiteLight, options);
   Exported result;
   result.before = hand.document;
-  result.report = export_scene(hand.document, hand.added, hand.scene, hand.bake, options, result.warnings);
+  result.report = export_scene(hand.document, hand.added, hand.scene, hand.bake, options, result.warnings, {});
   result.after = read_back(hand.document, hand.added);
   return result;
 }
