@@ -107,15 +107,16 @@ Result<Done> load_buffers(Document& document, std::optional<ByteSpan> bin) {
     const std::string place = place_of("buffers", i);
     const std::uint64_t length = *whole_number(buffers[i]["byteLength"]);
     Bytes bytes;
+    if (is_placeholder(buffers[i])) {
+      document.buffers.emplace_back();
+      continue;
+    }
     if (buffers[i].contains("uri")) {
       Result<Bytes> read = read_uri(buffers[i]["uri"].get<std::string>(), document.folder, place);
       if (!read) return read.error();
       bytes = std::move(*read);
     } else if (i == 0 && bin) {
       bytes.assign(bin->begin(), bin->end());
-    } else if (is_placeholder(buffers[i])) {
-      document.buffers.emplace_back();
-      continue;
     } else if (length > 0) {
       return bad_input(place, "has neither a uri nor a binary chunk");
     }

@@ -54,8 +54,7 @@ class StreamReader : private JsonChecker {
       if (const char* extension = extension_on(view)) {
         streams.push_back(read(*extension_of(view, extension), i, place));
         check(streams.back(), view, buffers, place);
-      } else if (is_placeholder(root_["buffers"][view["buffer"].get<std::size_t>()]) &&
-                 buffers[view["buffer"].get<std::size_t>()].empty() && number(view, "byteLength", 0, place) > 0) {
+      } else if (is_placeholder(root_["buffers"][view["buffer"].get<std::size_t>()])) {
         fail(place, fmt::format("lies in buffers[{}], which has no data but of compressed bufferViews",
                                 view["buffer"].get<std::size_t>()));
       }
@@ -276,7 +275,6 @@ void correct_bounds(Document& document, const std::vector<Stream>& streams) {
 }  // namespace
 
 bool is_placeholder(const Json& buffer) {
-  if (buffer.contains("uri")) return false;
   return std::any_of(kMeshoptExtensions.begin(), kMeshoptExtensions.end(), [&buffer](const char* name) {
     const Json* extension = extension_of(buffer, name);
     return extension != nullptr && extension->value("fallback", Json()) == Json(true);

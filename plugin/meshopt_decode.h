@@ -7,8 +7,8 @@ namespace gltf_radiosity {
 
 inline constexpr const char* kMeshoptExtension = "EXT_meshopt_compression";
 
-/// Whether a buffer only keeps room for what its compressed bufferViews decode to: it says how long it is, but has no
-/// uri and no data.
+/// Whether a buffer holds nothing but what its compressed bufferViews decode to: it need not be read, and often there
+/// is nothing to read.
 bool is_placeholder(const Json& buffer);
 
 /// Decodes every bufferView that is compressed by meshoptimizer: the data goes into a new buffer at the end, and the

@@ -170,13 +170,15 @@ TEST(MeshoptDecode, PlainDataBesideStreamsKeepsItsBytes) {
   EXPECT_EQ(document->json["bufferViews"][plain]["byteOffset"].get<std::size_t>() % 4, 0U);
 }
 
-TEST(MeshoptDecode, AFallbackThatHasDataIsNotNeeded) {
-  GltfBuilder builder = with_streams({plain_rows(kRows, 4)});
-  builder.json["buffers"][1]["uri"] = "data:;base64," + encode_base64(Bytes(12, 77));
-  const auto document = read_streams(builder);
-  ASSERT_TRUE(document) << document.error().text();
-  EXPECT_EQ(decoded_as<std::uint8_t>(*document, 0), kRows);
-  EXPECT_EQ(document->buffers.size(), 2U) << "the emptied first one and the decoded data";
+TEST(MeshoptDecode, AFallbackIsNotNeededEvenIfItHasData) {
+  for (const std::string& uri : {"data:;base64," + encode_base64(Bytes(12, 77)), std::string("gone.bin")}) {
+    GltfBuilder builder = with_streams({plain_rows(kRows, 4)});
+    builder.json["buffers"][1]["uri"] = uri;
+    const auto document = read_streams(builder);
+    ASSERT_TRUE(document) << document.error().text();
+    EXPECT_EQ(decoded_as<std::uint8_t>(*document, 0), kRows);
+    EXPECT_EQ(document->buffers.size(), 2U) << "the emptied first one and the decoded data";
+  }
 }
 
 TEST(MeshoptDecode, BoundsAreThoseOfTheDecodedValues) {
