@@ -130,6 +130,7 @@ Streams encode(const PrimitiveValues& values, int position_grid) {
   // Vertices.
   const auto encode_all = [&](const std::vector<AttributeValues>& attributes) {
     std::vector<Stream> encoded;
+    encoded.reserve(attributes.size());
     for (const AttributeValues& attribute : attributes) {
       encoded.push_back(encode_rows(attribute, new_number, count, position_grid));
     }

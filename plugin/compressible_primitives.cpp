@@ -70,6 +70,7 @@ std::vector<int> position_grids(const Document& document) {
   // Grids.
   const float largest = extents.empty() ? 0.0F : *std::max_element(extents.begin(), extents.end());
   std::vector<int> grids;
+  grids.reserve(extents.size());
   for (const float extent : extents) grids.push_back(position_grid(extent, largest));
   return grids;
 }

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <cstddef>
 #include <functional>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -207,7 +208,8 @@ void compact_buffer(Document& document, std::size_t buffer) {
   for (Part& part : parts) {
     part.new_begin = (bytes.size() + 3) / 4 * 4 + part.begin % 4;
     bytes.resize(part.new_begin + part.end - part.begin);
-    std::memcpy(bytes.data() + part.new_begin, document.buffers[buffer].data() + part.begin, part.end - part.begin);
+    const auto source = std::span(document.buffers[buffer]).subspan(part.begin, part.end - part.begin);
+    std::copy(source.begin(), source.end(), bytes.begin() + static_cast<std::ptrdiff_t>(part.new_begin));
   }
   document.buffers[buffer] = std::move(bytes);
   root["buffers"][buffer]["byteLength"] = document.buffers[buffer].size();
