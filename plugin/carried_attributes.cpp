@@ -10,6 +10,8 @@
 #include <string_view>
 #include <utility>
 
+#include "plugin/used_extensions.h"
+
 namespace gltf_radiosity {
 namespace {
 
@@ -21,6 +23,10 @@ constexpr float kDirectionTolerance = 0.01F, kTexcoordTolerance = 1.0F / 2048.0F
 constexpr float kShareOfRange = 1.0F / 1024.0F;
 /// Keeps tolerances above nothing, where there is nothing to measure by.
 constexpr float kTiny = 1e-12F;
+
+const Json& primitive_of(const Document& document, const PrimitiveInstance& instance) {
+  return document.json["meshes"][instance.mesh]["primitives"][instance.primitive];
+}
 
 /// The diagonal of the box around points, [3 * count].
 float extent_of(std::span<const float> points) {
@@ -161,7 +167,7 @@ void add_attribute(std::string_view semantic, const AttributeRows& rows, float s
 
 Columns columns_of(const Document& document, const PrimitiveInstance& instance, const RefinedPrimitive& refined,
                    const VertexColors& colors, float relative_shape) {
-  const Json& primitive = document.json["meshes"][instance.mesh]["primitives"][instance.primitive];
+  const Json& primitive = primitive_of(document, instance);
   const Json& attributes = primitive["attributes"];
   Columns columns(refined.vertices.size());
 
@@ -210,6 +216,10 @@ MeanColor mean_color(const ExposedColors& colors) {
   return mean;
 }
 
+bool may_lose_vertices(const Document& document, const PrimitiveInstance& instance) {
+  return instance.receives && !extension_that_names_vertices(primitive_of(document, instance));
+}
+
 Carried carried_attributes(const Document& document, const ImportedScene& scene, const radiosity::RefinedMesh& mesh,
                            std::span<const RefinedPrimitive> refined, const ExposedColors& colors,
                            const Options& options) {
@@ -233,7 +243,7 @@ Carried carried_attributes(const Document& document, const ImportedScene& scene,
   for (std::size_t i = 0; i < refined.size(); ++i) {
     const std::vector<std::uint32_t>& vertices = refined[i].vertices;
     columns.emplace_back(0);
-    if (!scene.instances[i].receives) continue;
+    if (!may_lose_vertices(document, scene.instances[i])) continue;
     std::vector<float> points;
     for (const std::uint32_t v : vertices) points.insert(points.end(), &mesh.positions[v].x, &mesh.positions[v].x + 3);
     const float extent = std::max(extent_of(points), kTiny);

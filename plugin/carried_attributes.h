@@ -26,7 +26,10 @@ struct MeanColor {
 };
 MeanColor mean_color(const ExposedColors& colors);
 
-/// Carries every attribute and morph target of every instance that receives light; the vertices of others are fixed.
+/// Whether vertices of an instance may go: it receives light, and no extension may name its vertices by their numbers.
+bool may_lose_vertices(const Document& document, const PrimitiveInstance& instance);
+
+/// Carries every attribute and morph target of every instance that may lose vertices; those of others are fixed.
 /// Tolerances:
 ///
 /// - light: `max_error` of the mean COLOR_0, as exposed and cut off at white (but for a radiance attribute, which is

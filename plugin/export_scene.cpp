@@ -189,7 +189,7 @@ ExportReport export_scene(Document& document, BufferBuilder& buffer, const Impor
 
   // Only what is needed.
   if (options.simplify) {
-    report.simplified = simplify_scene(document, scene, bake, {colors, k}, options, refined, progress);
+    report.simplified = simplify_scene(document, scene, bake, {colors, k}, options, refined, warnings, progress);
   }
 
   // Geometry and colours.

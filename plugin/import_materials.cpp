@@ -122,8 +122,7 @@ Transmission::Shares Transmission::shares(const glm::vec3& base_color, float str
 }
 
 Result<ImportedMaterial> import_material(const Document& document, const tinygltf::Model& model,
-                                         std::optional<std::uint32_t> source, Metals metals, TextureLibrary& textures,
-                                         std::vector<Warning>& warnings) {
+                                         std::optional<std::uint32_t> source, Metals metals, TextureLibrary& textures) {
   ImportedMaterial result;
   result.source = source;
   result.metals_reflect = metals == Metals::kDiffuse;

@@ -73,7 +73,6 @@ struct ImportedMaterial {
 
 /// `source` none gives glTF's default material. Textures that do not change how diffuse light travels are not read.
 Result<ImportedMaterial> import_material(const Document& document, const tinygltf::Model& model,
-                                         std::optional<std::uint32_t> source, Metals metals, TextureLibrary& textures,
-                                         std::vector<Warning>& warnings);
+                                         std::optional<std::uint32_t> source, Metals metals, TextureLibrary& textures);
 
 }  // namespace gltf_radiosity

@@ -256,7 +256,7 @@ class SceneImporter {
     const auto known = material_of_source_.find(source);
     if (known != material_of_source_.end()) return known->second;
     const auto index = source < 0 ? std::nullopt : std::optional(static_cast<std::uint32_t>(source));
-    auto material = import_material(document_, model_, index, options_.metals, textures_, warnings_);
+    auto material = import_material(document_, model_, index, options_.metals, textures_);
     if (!material) return material.error();
     result_.materials.push_back(std::move(*material));
     const auto added = static_cast<std::uint32_t>(result_.materials.size() - 1);

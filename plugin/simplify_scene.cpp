@@ -1,6 +1,8 @@
 #include "plugin/simplify_scene.h"
 
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "core/mesh/simplify.h"
 
@@ -38,12 +40,24 @@ void shrink(const radiosity::Simplified& simplified, std::size_t first, std::siz
   }
 }
 
+void warn_of_named_vertices(const Document& document, const ImportedScene& scene, std::vector<Warning>& warnings) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> warned;
+  for (const PrimitiveInstance& instance : scene.instances) {
+    if (!instance.receives || may_lose_vertices(document, instance)) continue;
+    if (!warned.emplace(instance.mesh, instance.primitive).second) continue;
+    warnings.push_back({"not-simplified", place_of_primitive(instance.mesh, instance.primitive),
+                        "is not simplified: an extension may name its vertices by their numbers"});
+  }
+}
+
 }  // namespace
 
 SimplifyReport simplify_scene(const Document& document, const ImportedScene& scene, const radiosity::Bake& bake,
                               const ExposedColors& colors, const Options& options,
-                              std::vector<RefinedPrimitive>& refined, const radiosity::Progress& progress) {
+                              std::vector<RefinedPrimitive>& refined, std::vector<Warning>& warnings,
+                              const radiosity::Progress& progress) {
   progress.update("simplify", 0.0);
+  warn_of_named_vertices(document, scene, warnings);
   const radiosity::RefinedMesh& mesh = bake.mesh;
   const radiosity::Simplified simplified =
       radiosity::simplify(mesh, carried_attributes(document, scene, mesh, refined, colors, options), progress);
@@ -59,7 +73,7 @@ SimplifyReport simplify_scene(const Document& document, const ImportedScene& sce
     while (element < simplified.elements.size() && mesh.triangle_of_element[simplified.elements[element]] < end) {
       ++element;
     }
-    if (!scene.instances[i].receives) continue;
+    if (!may_lose_vertices(document, scene.instances[i])) continue;
     shrink(simplified, first, element, scene.instances[i].mirrored, output_of, refined[i]);
     report.removed_vertices += refined[i].vertices.size() - refined[i].written_vertex_count();
   }

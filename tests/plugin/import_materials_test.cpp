@@ -21,7 +21,7 @@ Imported import_last(const GltfBuilder& builder, Metals metals = Metals::kDiffus
   Imported result;
   TextureLibrary textures(document, result.warnings);
   const auto last = static_cast<std::uint32_t>(document.json["materials"].size() - 1);
-  const auto material = import_material(document, **model, last, metals, textures, result.warnings);
+  const auto material = import_material(document, **model, last, metals, textures);
   EXPECT_TRUE(material) << material.error().text();
   if (material) result.material = *material;
   return result;

@@ -33,6 +33,7 @@ PrimitiveParts tessellated_square(int n) {
 struct Thinned {
   Document document;
   ExportReport report;
+  std::vector<Warning> warnings;
 
   const Json& primitive(std::size_t mesh) const { return document.json["meshes"][mesh]["primitives"][0]; }
   std::size_t count(std::size_t mesh, const std::string& semantic) const {
@@ -51,6 +52,7 @@ Thinned thinned(const GltfBuilder& builder, int levels = 0, Options options = {}
   Thinned result;
   result.report = export_scene(hand.document, hand.added, hand.scene, hand.bake, options, hand.warnings, {});
   result.document = read_back(hand.document, hand.added);
+  result.warnings = hand.warnings;
   return result;
 }
 
@@ -182,6 +184,18 @@ TEST(SimplifyScene, WhatIsNotSelectedStays) {
   const std::size_t lit = result.document.json["nodes"][0]["mesh"].get<std::size_t>();
   EXPECT_EQ(result.count(lit, "POSITION"), 7U) << "the vertices on the line to its neighbour stay as well";
   EXPECT_EQ(result.count(result.document.json["nodes"][1]["mesh"].get<std::size_t>(), "POSITION"), 25U);
+}
+
+TEST(SimplifyScene, VerticesThatAnExtensionMayNameStay) {
+  GltfBuilder builder;
+  Json primitive = builder.primitive(tessellated_square(4));
+  primitive["extensions"]["VENDOR_edges"] = {{"vertices", {1, 2}}};
+  builder.json["extensionsUsed"] = {"VENDOR_edges"};
+  builder.add_node(builder.add_mesh(Json::array({primitive})));
+  const Thinned result = thinned(builder);
+  EXPECT_EQ(result.count(0, "POSITION"), 25U);
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_EQ(result.warnings[0].code, "not-simplified");
 }
 
 TEST(SimplifyScene, LightBeyondWhiteHasASayWhereItIsStored) {

@@ -38,5 +38,11 @@ TEST(UsedExtensions, AreRemovedFromAnObject) {
   EXPECT_EQ(object, Json::parse(R"({"name": "n"})"));
 }
 
+TEST(UsedExtensions, OfAPrimitiveMayNameItsVertices) {
+  EXPECT_FALSE(extension_that_names_vertices(Json::object()));
+  EXPECT_FALSE(extension_that_names_vertices(Json::parse(R"({"extensions": {"KHR_materials_variants": {}}})")));
+  EXPECT_EQ(extension_that_names_vertices(Json::parse(R"({"extensions": {"EXT_mesh_features": {}, "A": {}}})")), "A");
+}
+
 }  // namespace
 }  // namespace gltf_radiosity
