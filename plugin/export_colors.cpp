@@ -16,9 +16,6 @@ namespace {
 
 using radiosity::Rgb;
 
-/// Below this a texture cannot be divided by: what is black hides a lamp whatever COLOR_0 says.
-constexpr float kDarkestTexture = 1.0F / 64.0F;
-
 /// What the functions below look at.
 struct Source {
   const ImportedScene& scene;
@@ -27,6 +24,7 @@ struct Source {
   const ImportedMaterial& material;
   const RefinedPrimitive& refined;
   const ColorParts& parts;
+  ShownTexture texture;
 };
 
 /// The source's COLOR_0 at every output vertex.
@@ -82,6 +80,10 @@ struct Emission {
 Emission emission(const Source& source, std::uint32_t instance) {
   Emission result;
   if (source.material.emissive == Rgb(0.0F) || !source.parts.emission) return result;
+  if (source.texture == ShownTexture::kEmissive) {
+    result.luminance.assign(source.refined.vertices.size(), source.material.emissive);
+    return result;
+  }
   result.luminance = vertex_means(source, [&](std::uint32_t triangle, const radiosity::SubTriangle& part) {
     return radiosity::mean_emission(source.scene.scene, triangle, part);
   });
@@ -90,6 +92,17 @@ Emission emission(const Source& source, std::uint32_t instance) {
     return mean_base_color_texture(source.scene, instance, triangle, part);
   });
   return result;
+}
+
+/// By how much COLOR_0 must exceed the light that a white surface would reflect, at every vertex, because the emissive
+/// texture multiplies it and not the base colour's; empty if that is nothing.
+std::vector<Rgb> base_color_over_emissive(const Source& source) {
+  if (source.texture == ShownTexture::kBaseColor) return {};
+  return vertex_means(source, [&](std::uint32_t triangle, const radiosity::SubTriangle& part) {
+    const SceneDetail& detail = *source.scene.detail;
+    return Rgb(detail.texture_mean(source.material.base_color, triangle, part)) /
+           glm::max(Rgb(detail.texture_mean(source.material.emissive_texture, triangle, part)), Rgb(kDarkestTexture));
+  });
 }
 
 /// The share of the base colour that reflects diffusely, at every vertex; empty if that is all of it.
@@ -115,6 +128,7 @@ VertexColors colors_of_instance(const Source& source, const radiosity::Bake& bak
   const std::vector<float> areas = vertex_areas(source);
   const Emission emitted = emission(source, instance);
   const std::vector<Rgb> diffuse = diffuse_share(source, instance);
+  const std::vector<Rgb> blurred = base_color_over_emissive(source);
   const bool keeps_alpha = source.material.alpha_mode != AlphaMode::kOpaque;
   const Rgb factor = source.parts.base_color ? Rgb(source.material.base_color_factor) : Rgb(1.0F);
 
@@ -124,7 +138,8 @@ VertexColors colors_of_instance(const Source& source, const radiosity::Bake& bak
   colors.places.reserve(old.size());
   for (std::size_t v = 0; v < old.size(); ++v) {
     // Reflected.
-    const Rgb rho = factor * Rgb(old[v]) * (diffuse.empty() ? Rgb(1.0F) : diffuse[v]);
+    const Rgb rho =
+        factor * Rgb(old[v]) * (diffuse.empty() ? Rgb(1.0F) : diffuse[v]) * (blurred.empty() ? Rgb(1.0F) : blurred[v]);
     Rgb shown = radiosity::reflected_luminance(rho, bake.irradiance[source.refined.vertices[v]]);
 
     // Emitted.
@@ -159,13 +174,15 @@ void dither(std::vector<float>& values, std::span<const std::uint32_t> places) {
 }  // namespace
 
 std::vector<VertexColors> vertex_colors(const ImportedScene& scene, const radiosity::Bake& bake,
-                                        std::span<const RefinedPrimitive> refined, const ColorParts& parts) {
+                                        std::span<const RefinedPrimitive> refined, const ColorParts& parts,
+                                        std::span<const ShownTexture> textures) {
   assert(refined.size() == scene.instances.size());
   std::vector<VertexColors> colors(refined.size());
   for (std::uint32_t i = 0; i < refined.size(); ++i) {
     const PrimitiveInstance& instance = scene.instances[i];
     if (!instance.receives) continue;
-    const Source source{scene, bake.mesh, instance, scene.materials[instance.material], refined[i], parts};
+    const ShownTexture texture = textures.empty() ? ShownTexture::kBaseColor : textures[instance.material];
+    const Source source{scene, bake.mesh, instance, scene.materials[instance.material], refined[i], parts, texture};
     colors[i] = colors_of_instance(source, bake, i);
   }
   return colors;

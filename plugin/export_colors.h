@@ -3,7 +3,11 @@
 //   with a base colour texture:  COLOR_0 = k (H / pi) x factor x old COLOR_0 + k Le / texture
 //   without:                     COLOR_0 = k (rho H / pi + Le)
 //
-// so that an engine which shows COLOR_0 x baseColorFactor (1) x texture, unlit, shows k (rho H / pi + Le).
+// so that an engine which shows COLOR_0 x baseColorFactor (1) x texture, unlit, shows k (rho H / pi + Le). Where the
+// material's emissive texture is shown (shown_texture.h) it is the other way round, the emission exact and the base
+// colour texture a mean around the vertex:
+//
+//   COLOR_0 = k (H / pi) x factor x old COLOR_0 x base colour texture / texture + k Le / texture
 //
 // Where the material stays lit (--target keep) it keeps its base colour and its emission: COLOR_0 = k (H / pi) x old
 // COLOR_0.
@@ -22,6 +26,7 @@
 #include "plugin/append_accessor.h"
 #include "plugin/export_meshes.h"
 #include "plugin/import_scene.h"
+#include "plugin/shown_texture.h"
 
 namespace gltf_radiosity {
 
@@ -39,9 +44,11 @@ struct ColorParts {
   bool emission = true;
 };
 
-/// [refined.size()], empty entries for instances that do not receive.
+/// [refined.size()], empty entries for instances that do not receive. `textures` is [scene.materials.size()], or empty
+/// if all show that of their base colour.
 std::vector<VertexColors> vertex_colors(const ImportedScene& scene, const radiosity::Bake& bake,
-                                        std::span<const RefinedPrimitive> refined, const ColorParts& parts = {});
+                                        std::span<const RefinedPrimitive> refined, const ColorParts& parts = {},
+                                        std::span<const ShownTexture> textures = {});
 
 // Of a primitive that was simplified only the vertices `kept` are written (RefinedPrimitive); all if that is empty.
 

@@ -48,7 +48,8 @@ void dim(Json& owner, const char* key, const radiosity::Rgb& factor) {
 
 }  // namespace
 
-Json unlit_material(const Json& source, const ImportedMaterial& material, const radiosity::Rgb& factor) {
+Json unlit_material(const Json& source, const ImportedMaterial& material, const radiosity::Rgb& factor,
+                    ShownTexture texture) {
   Json unlit = source.is_object() ? source : Json::object();
 
   // Base colour: COLOR_0 holds the source's factor. Specular-glossiness has a texture of its own for it.
@@ -57,6 +58,7 @@ Json unlit_material(const Json& source, const ImportedMaterial& material, const 
   if (!pbr.is_object()) pbr = Json::object();
   if (glossy != nullptr) pbr.erase("baseColorTexture");
   if (glossy != nullptr && glossy->contains("diffuseTexture")) pbr["baseColorTexture"] = (*glossy)["diffuseTexture"];
+  if (texture == ShownTexture::kEmissive) pbr["baseColorTexture"] = source["emissiveTexture"];
   pbr.erase("metallicRoughnessTexture");
   pbr.erase("baseColorFactor");
   const glm::vec4 left(factor, material.base_color_factor.a);

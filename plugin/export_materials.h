@@ -8,6 +8,7 @@
 #include "core/rgb.h"
 #include "plugin/document.h"
 #include "plugin/import_materials.h"
+#include "plugin/shown_texture.h"
 
 namespace gltf_radiosity {
 
@@ -19,7 +20,9 @@ inline constexpr const char* kVariantsExtension = "KHR_materials_variants";
 /// doubleSided, alpha factor, extensions that do not shade. Set: KHR_materials_unlit, base colour 1, metallic 0,
 /// roughness 1. Removed: emissive, normal, occlusion and metallic-roughness, and shading extensions.
 /// `factor` is the base colour factor of what is not transparent: COLOR_0 was divided by it.
-Json unlit_material(const Json& source, const ImportedMaterial& material, const radiosity::Rgb& factor = {1, 1, 1});
+/// With ShownTexture::kEmissive the emissive texture takes the place of the base colour's.
+Json unlit_material(const Json& source, const ImportedMaterial& material, const radiosity::Rgb& factor = {1, 1, 1},
+                    ShownTexture texture = ShownTexture::kBaseColor);
 
 /// `source` with its base colour factor, or the diffuse one of specular-glossiness, times `factor`; lit as it was.
 Json dimmed_material(const Json& source, const radiosity::Rgb& factor);

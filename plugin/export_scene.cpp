@@ -97,8 +97,8 @@ Json& primitive_json(Json& root, const BakedPrimitive& baked) {
 
 /// The material of a baked primitive: the source's JSON -> the output's; none if it stays as it is.
 std::optional<Json> baked_material(const Json& source, const ImportedMaterial& material, const Rgb& factor,
-                                   Target target) {
-  if (target == Target::kUnlit) return unlit_material(source, material, factor);
+                                   ShownTexture texture, Target target) {
+  if (target == Target::kUnlit) return unlit_material(source, material, factor, texture);
   if (factor == Rgb(1.0F)) return std::nullopt;
   return dimmed_material(source, factor);
 }
@@ -111,7 +111,7 @@ void warn_of_transmission(const ImportedMaterial& material, std::vector<Warning>
 }
 
 void assign_materials(Document& document, const ImportedScene& scene, const std::vector<BakedPrimitive>& primitives,
-                      Target target, std::vector<Warning>& warnings) {
+                      const std::vector<ShownTexture>& textures, Target target, std::vector<Warning>& warnings) {
   // What stays as it is, and what others look at.
   Json& root = document.json;
   const Json sources = root.value("materials", Json::array());
@@ -120,7 +120,8 @@ void assign_materials(Document& document, const ImportedScene& scene, const std:
     return source ? sources[*source] : Json::object();
   };
   const auto change_of = [&](const BakedPrimitive& baked) {
-    return baked_material(source_of(baked), scene.materials[baked.material], baked.factor, target);
+    return baked_material(source_of(baked), scene.materials[baked.material], baked.factor, textures[baked.material],
+                          target);
   };
   for (const BakedPrimitive& baked : primitives) {
     if (change_of(baked)) primitive_json(root, baked).erase("material");
@@ -184,7 +185,10 @@ ExportReport export_scene(Document& document, BufferBuilder& buffer, const Impor
   std::vector<RefinedPrimitive> refined = split_by_instance(bake.mesh, scene);
   const bool unlit = options.target == Target::kUnlit;
   const ColorParts parts{unlit, unlit && options.bake != BakedLight::kIndirect};
-  const std::vector<VertexColors> colors = vertex_colors(scene, bake, refined, parts);
+  const std::vector<ShownTexture> textures =
+      parts.emission ? choose_textures(scene, bake, refined)
+                     : std::vector<ShownTexture>(scene.materials.size(), ShownTexture::kBaseColor);
+  const std::vector<VertexColors> colors = vertex_colors(scene, bake, refined, parts, textures);
   const float k = exposure(colors, options, report);
 
   // Only what is needed.
@@ -216,7 +220,7 @@ ExportReport export_scene(Document& document, BufferBuilder& buffer, const Impor
     primitive_json(document.json, baked.back()) = std::move(primitive);
   }
 
-  assign_materials(document, scene, baked, options.target, warnings);
+  assign_materials(document, scene, baked, textures, options.target, warnings);
   sign(document.json, report, options);
   return report;
 }

@@ -39,6 +39,14 @@ ImportedMaterial imported(std::optional<std::uint32_t> source, float alpha = 1.0
   return material;
 }
 
+TEST(ExportMaterials, AnUnlitMaterialMayShowWhatItEmitted) {
+  Json source = kEverything;
+  source["emissiveTexture"]["extensions"]["KHR_texture_transform"] = {{"scale", {3, 3}}};
+  const Json unlit = unlit_material(source, imported(0), radiosity::Rgb(1.0F), ShownTexture::kEmissive);
+  EXPECT_EQ(unlit["pbrMetallicRoughness"]["baseColorTexture"], source["emissiveTexture"]);
+  EXPECT_FALSE(unlit.contains("emissiveTexture"));
+}
+
 TEST(ExportMaterials, AnUnlitMaterialShowsNothingButBaseColour) {
   const Json expected = Json::parse(R"({
     "name": "wall",

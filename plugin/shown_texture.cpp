@@ -1,0 +1,88 @@
+#include "plugin/shown_texture.h"
+
+#include <cstddef>
+#include <glm/common.hpp>
+
+#include "core/mesh/tiles.h"
+#include "core/photometry.h"
+#include "plugin/scene_detail.h"
+
+namespace gltf_radiosity {
+namespace {
+
+using radiosity::Rgb;
+using radiosity::SubTriangle;
+
+/// An element is looked at in this many parts squared.
+constexpr std::uint32_t kCuts = 4;
+
+/// Squared errors of the displayed luminance, times area.
+struct SquaredErrors {
+  double base_color = 0.0, emissive = 0.0;
+};
+
+bool may_show_emissive(const ImportedMaterial& material) {
+  return material.emissive_texture && material.emits() && material.alpha_mode == AlphaMode::kOpaque && !material.unlit;
+}
+
+/// What both textures hold in a part of a triangle.
+struct Texels {
+  Rgb base_color, emissive;
+};
+
+Texels texels_in(const ImportedScene& scene, const ImportedMaterial& material, std::uint32_t triangle,
+                 const SubTriangle& part) {
+  return {Rgb(scene.detail->texture_mean(material.base_color, triangle, part)),
+          Rgb(scene.detail->texture_mean(material.emissive_texture, triangle, part))};
+}
+
+double squared_luminance(const Rgb& light) {
+  const auto luminance = double{radiosity::luminance_of(light)};
+  return luminance * luminance;
+}
+
+void add_errors(const ImportedScene& scene, const ImportedMaterial& material, const radiosity::Bake& bake,
+                std::uint32_t element, SquaredErrors& errors) {
+  const radiosity::RefinedMesh& mesh = bake.mesh;
+  const std::uint32_t triangle = mesh.triangle_of_element[element];
+  const SubTriangle& whole = mesh.part_of_element[element];
+  const glm::uvec3& corner = mesh.elements[element];
+  const Rgb irradiance = (bake.irradiance[corner.x] + bake.irradiance[corner.y] + bake.irradiance[corner.z]) / 3.0F;
+  const Rgb reflected = radiosity::reflected_luminance(scene.detail->shown_reflectance(triangle, whole), irradiance);
+  const Rgb emitted = mean_emission(scene.scene, triangle, whole);
+
+  // A texture times what is divided by its mean, less the truth, in which each has its own.
+  const Texels mean = texels_in(scene, material, triangle, whole);
+  const Rgb base_color = glm::max(mean.base_color, Rgb(kDarkestTexture));
+  const Rgb emissive = glm::max(mean.emissive, Rgb(kDarkestTexture));
+  const double weight = double{element_area(mesh, element)} / (kCuts * kCuts);
+  for (std::uint32_t k = 0; k < kCuts * kCuts; ++k) {
+    const Texels here = texels_in(scene, material, triangle, compose(whole, radiosity::tile_part(kCuts, k)));
+    const Rgb true_reflected = here.base_color / base_color * reflected;
+    const Rgb true_emitted = here.emissive * material.emissive;
+    errors.base_color += weight * squared_luminance(here.base_color / base_color * emitted - true_emitted);
+    errors.emissive += weight * squared_luminance(here.emissive / emissive * reflected - true_reflected);
+  }
+}
+
+}  // namespace
+
+std::vector<ShownTexture> choose_textures(const ImportedScene& scene, const radiosity::Bake& bake,
+                                          std::span<const RefinedPrimitive> refined) {
+  std::vector<SquaredErrors> errors(scene.materials.size());
+  for (std::size_t i = 0; i < refined.size(); ++i) {
+    const PrimitiveInstance& instance = scene.instances[i];
+    const ImportedMaterial& material = scene.materials[instance.material];
+    if (!instance.receives || !may_show_emissive(material)) continue;
+    for (const std::uint32_t element : refined[i].elements) {
+      add_errors(scene, material, bake, element, errors[instance.material]);
+    }
+  }
+  std::vector<ShownTexture> shown(errors.size(), ShownTexture::kBaseColor);
+  for (std::size_t m = 0; m < errors.size(); ++m) {
+    if (errors[m].emissive < errors[m].base_color) shown[m] = ShownTexture::kEmissive;
+  }
+  return shown;
+}
+
+}  // namespace gltf_radiosity

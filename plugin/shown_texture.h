@@ -1,0 +1,27 @@
+// Which of a material's textures multiplies COLOR_0 in the output.
+//
+// Unlit materials show one texture. Where a screen glows brighter than the room that it reflects, its picture should
+// stay sharp, and what it reflects be as fine as the vertices are; elsewhere it is the other way round.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/bake.h"
+#include "plugin/export_meshes.h"
+#include "plugin/import_scene.h"
+
+namespace gltf_radiosity {
+
+enum class ShownTexture : std::uint8_t { kBaseColor, kEmissive };
+
+/// Below this a texture cannot be divided by: what is black hides what it multiplies whatever COLOR_0 says.
+inline constexpr float kDarkestTexture = 1.0F / 64.0F;
+
+/// The texture with which less of the displayed luminance is wrong, as mean square over the elements of all instances:
+/// [scene.materials.size()]. The emissive one only of opaque materials, for the other has the alpha.
+std::vector<ShownTexture> choose_textures(const ImportedScene& scene, const radiosity::Bake& bake,
+                                          std::span<const RefinedPrimitive> refined);
+
+}  // namespace gltf_radiosity

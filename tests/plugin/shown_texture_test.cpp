@@ -1,0 +1,89 @@
+#include "plugin/shown_texture.h"
+
+#include <gtest/gtest.h>
+
+#include "core/photometry.h"
+#include "plugin/export_colors.h"
+#include "tests/plugin/bake_by_hand.h"
+
+namespace gltf_radiosity {
+namespace {
+
+using radiosity::kPi;
+using radiosity::Rgb;
+
+/// A unit square whose base colour is white with black, and whose emission is black with white, under 2 pi lx.
+struct Screen {
+  GltfBuilder builder;
+  Json material = Json::object();
+
+  explicit Screen(float emitted) {
+    const std::vector<std::uint8_t> white_black = {255, 255, 255, 255, 0, 0, 0, 255};
+    const std::vector<std::uint8_t> black_white = {0, 0, 0, 255, 255, 255, 255, 255};
+    material = {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", builder.add_texture(2, 1, white_black)}}}}},
+                {"emissiveTexture", {{"index", builder.add_texture(2, 1, black_white)}}},
+                {"emissiveFactor", {emitted, emitted, emitted}}};
+  }
+
+  HandBake baked(int levels = 0) {
+    PrimitiveParts parts = unit_square();
+    parts.material = builder.add_material(material);
+    builder.add_node(builder.add_mesh(parts));
+    return bake_by_hand(builder, levels, Rgb(2.0F * kPi));
+  }
+
+  ShownTexture shown() {
+    const HandBake hand = baked();
+    return choose_textures(hand.scene, hand.bake, split_by_instance(hand.bake.mesh, hand.scene)).at(0);
+  }
+};
+
+TEST(ShownTexture, IsThatOfTheBrighterLight) {
+  EXPECT_EQ(Screen(10.0F).shown(), ShownTexture::kEmissive);
+  EXPECT_EQ(Screen(0.1F).shown(), ShownTexture::kBaseColor);
+}
+
+TEST(ShownTexture, IsTheOnlyOneThereIs) {
+  Screen lamp(0.1F);
+  lamp.material.erase("pbrMetallicRoughness");
+  lamp.material["emissiveFactor"] = {10.0, 10.0, 10.0};
+  EXPECT_EQ(lamp.shown(), ShownTexture::kEmissive);
+  Screen painted(10.0F);
+  painted.material.erase("emissiveTexture");
+  EXPECT_EQ(painted.shown(), ShownTexture::kBaseColor);
+}
+
+TEST(ShownTexture, IsThatOfTheBaseColourWhereItHoldsTheAlpha) {
+  for (const char* mode : {"BLEND", "MASK"}) {
+    Screen screen(10.0F);
+    screen.material["alphaMode"] = mode;
+    EXPECT_EQ(screen.shown(), ShownTexture::kBaseColor) << mode;
+  }
+}
+
+TEST(ShownTexture, IsThatOfTheBaseColourWhereBothAreTheSame) {
+  Screen screen(10.0F);
+  screen.material["emissiveTexture"] = screen.material["pbrMetallicRoughness"]["baseColorTexture"];
+  EXPECT_EQ(screen.shown(), ShownTexture::kBaseColor);
+}
+
+// An emissive picture used to be as blurred as the vertices are apart: a window in a bathroom was a grey board.
+TEST(ShownTexture, OfAScreenIsExact) {
+  Screen screen(10.0F);
+  screen.material.erase("pbrMetallicRoughness");
+  const HandBake hand = screen.baked(2);
+  const auto refined = split_by_instance(hand.bake.mesh, hand.scene);
+  const std::vector<ShownTexture> textures = {ShownTexture::kEmissive};
+  const VertexColors colors = vertex_colors(hand.scene, hand.bake, refined, {}, textures)[0];
+  // The picture is half white where a vertex sees both halves, black on one side and white on the other.
+  float least = 1e9F, most = 0.0F;
+  for (const glm::vec4& color : colors.unexposed) {
+    least = std::min(least, color.x);
+    most = std::max(most, color.x);
+  }
+  EXPECT_NEAR(least, 10.0F + 2.0F, 0.1F) << "what reflects is added where the picture is white";
+  EXPECT_NEAR(most, 10.0F + 2.0F * 64.0F, 0.1F) << "and as far as may be where it is black";
+}
+
+}  // namespace
+}  // namespace gltf_radiosity
