@@ -65,8 +65,8 @@ float Deviation::of(const Place& place, const glm::uvec3& corners, const glm::ve
   if (!(most <= limit)) return std::numeric_limits<float>::infinity();
 
   // The light.
-  const Rgb change = glm::abs(light_change(place, corners, weights));
-  const float luminance = std::abs(luminance_of(light_change(place, corners, weights)));
+  const Rgb signed_change = light_change(place, corners, weights), change = glm::abs(signed_change);
+  const float luminance = std::abs(luminance_of(signed_change));
   most = std::max(
       most, std::max({luminance, 0.5F * change.x, 0.5F * change.y, 0.5F * change.z}) / carried_.light_tolerance[a]);
   if (!(most <= limit)) return std::numeric_limits<float>::infinity();
