@@ -248,7 +248,7 @@ void compress_meshopt(Document& document, BufferBuilder& buffer, std::vector<War
   meshopt_encodeVertexVersion(0);
   const std::vector<SharedPrimitive> shared = compressible_primitives(document, warnings);
   std::vector<std::optional<Result<Streams>>> streams(shared.size());
-  radiosity::parallel_in_chunks(shared.size(), 64, progress, "compress", [&](std::size_t i) {
+  radiosity::parallel_in_chunks(shared.size(), 8, progress, "compress", [&](std::size_t i) {
     const Result<PrimitiveValues> values = read_values(document, shared[i].places[0]);
     streams[i] = values ? Result<Streams>(encode(*values, shared[i].position_grid)) : Result<Streams>(values.error());
   });
