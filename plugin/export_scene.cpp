@@ -13,12 +13,13 @@
 #include "plugin/export_materials.h"
 #include "plugin/export_meshes.h"
 #include "plugin/instancing.h"
+#include "plugin/our_extras.h"
 #include "plugin/used_extensions.h"
 
 namespace gltf_radiosity {
 namespace {
 
-constexpr const char* kVariants = "KHR_materials_variants";
+constexpr const char* kVariantsOfPrimitive = "KHR_materials_variants";
 
 /// How often each mesh is referred to by a member "mesh", anywhere in the tree.
 void count_mesh_references(const Json& value, std::map<std::size_t, std::size_t>& counts) {
@@ -63,10 +64,15 @@ std::vector<std::size_t> separate_meshes(Json& root, const std::vector<Primitive
 
 /// A variant would show a material that is not unlit.
 void drop_variants(Json& primitive, const PrimitiveInstance& instance, std::vector<Warning>& warnings) {
-  if (!primitive.contains("extensions") || !primitive["extensions"].contains(kVariants)) return;
-  remove_extension(primitive, kVariants);
-  warnings.push_back({"variants-dropped", place_of_primitive(instance.mesh, instance.primitive),
-                      "the material variants of this primitive were dropped, the default one was baked"});
+  if (!primitive.contains("extensions") || !primitive["extensions"].contains(kVariantsOfPrimitive)) return;
+  remove_extension(primitive, kVariantsOfPrimitive);
+  const std::string place = place_of_primitive(instance.mesh, instance.primitive);
+  const bool said = std::any_of(warnings.begin(), warnings.end(), [&place](const Warning& warning) {
+    return warning.code == "variants-dropped" && warning.place == place;
+  });
+  if (said) return;  // by another node with the same mesh
+  warnings.push_back(
+      {"variants-dropped", place, "the material variants of this primitive were dropped, the default one was baked"});
 }
 
 float exposure(const std::vector<VertexColors>& colors, const Options& options, ExportReport& report) {
@@ -105,15 +111,10 @@ void assign_materials(Document& document, const ImportedScene& scene, const std:
 
 /// Files of one level can share an exposure that is written down.
 void sign(Json& root, const ExportReport& report) {
-  Json& asset = root["asset"];
-  if (asset.contains("extras") && !asset["extras"].is_object()) {
-    Json original = std::move(asset["extras"]);
-    asset["extras"] = {{"original", std::move(original)}};
-  }
-  asset["extras"]["radiosity"] = {{"generator", "gltf-radiosity"},
-                                  {"version", version()},
-                                  {"exposure", report.exposure},
-                                  {"clipped", report.clipped_share}};
+  our_extras(root["asset"]) = {{"generator", "gltf-radiosity"},
+                               {"version", version()},
+                               {"exposure", report.exposure},
+                               {"clipped", report.clipped_share}};
 }
 
 void count(const PrimitiveInstance& instance, const RefinedPrimitive& refined, ExportReport& report) {

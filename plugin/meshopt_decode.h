@@ -5,8 +5,8 @@
 
 namespace gltf_radiosity {
 
-/// Whether a buffer holds nothing but what its compressed bufferViews decode to: it need not be read, and often there is
-/// nothing to read.
+/// Whether a buffer holds nothing but what its compressed bufferViews decode to: it need not be read, and often there
+/// is nothing to read.
 bool is_placeholder(const Json& buffer);
 
 /// Decodes every bufferView that is compressed by meshoptimizer: the data goes into a new buffer at the end, and the
