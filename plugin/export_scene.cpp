@@ -16,6 +16,7 @@
 #include "plugin/export_materials.h"
 #include "plugin/export_meshes.h"
 #include "plugin/instancing.h"
+#include "plugin/our_extras.h"
 #include "plugin/output_style.h"
 #include "plugin/used_extensions.h"
 
@@ -69,8 +70,13 @@ std::vector<std::size_t> separate_meshes(Json& root, const std::vector<Primitive
 void drop_variants(Json& primitive, const PrimitiveInstance& instance, std::vector<Warning>& warnings) {
   if (!primitive.contains("extensions") || !primitive["extensions"].contains(kVariantsExtension)) return;
   remove_extension(primitive, kVariantsExtension);
-  warnings.push_back({"variants-dropped", place_of_primitive(instance.mesh, instance.primitive),
-                      "the material variants of this primitive were dropped, the default one was baked"});
+  const std::string place = place_of_primitive(instance.mesh, instance.primitive);
+  const bool said = std::any_of(warnings.begin(), warnings.end(), [&place](const Warning& warning) {
+    return warning.code == "variants-dropped" && warning.place == place;
+  });
+  if (said) return;  // by another node with the same mesh
+  warnings.push_back(
+      {"variants-dropped", place, "the material variants of this primitive were dropped, the default one was baked"});
 }
 
 float exposure(const std::vector<VertexColors>& colors, const Options& options, ExportReport& report) {
@@ -154,16 +160,11 @@ void assign_materials(Document& document, const ImportedScene& scene, const std:
 
 /// Files of one level can share an exposure that is written down.
 void sign(Json& root, const ExportReport& report, const Options& options) {
-  Json& asset = root["asset"];
-  if (asset.contains("extras") && !asset["extras"].is_object()) {
-    Json original = std::move(asset["extras"]);
-    asset["extras"] = {{"original", std::move(original)}};
-  }
-  asset["extras"]["radiosity"] = {{"generator", "gltf-radiosity"},
-                                  {"version", version()},
-                                  {"exposure", report.exposure},
-                                  {"clipped", report.clipped_share}};
-  Json& signature = asset["extras"]["radiosity"];
+  Json& signature = our_extras(root["asset"]);
+  signature = {{"generator", "gltf-radiosity"},
+               {"version", version()},
+               {"exposure", report.exposure},
+               {"clipped", report.clipped_share}};
   if (options.bake != BakedLight::kBoth) signature["light"] = name_of(options.bake);
   if (options.target == Target::kKeep) signature["target"] = "keep";
   if (!options.radiance_attribute.empty()) signature["radiance"] = radiance_semantic(options);

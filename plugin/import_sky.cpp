@@ -22,7 +22,7 @@ namespace {
 using radiosity::Rgb;
 using radiosity::Sky;
 
-constexpr const char* kExtension = "EXT_lights_image_based";
+constexpr const char* kImageBasedLight = "EXT_lights_image_based";
 
 /// Four times as wide, a map of such faces is within the bounds of HDR images.
 constexpr int kMaxFaceSize = 2048;
@@ -34,12 +34,12 @@ struct FileLight {
 
 /// The image-based light of a scene.
 FileLight file_light(const Json& root, std::optional<std::size_t> scene) {
-  const Json* all = extension_of(root, kExtension);
+  const Json* all = extension_of(root, kImageBasedLight);
   if (!scene || all == nullptr) return {};
-  const Json* reference = extension_of(root["scenes"][*scene], kExtension);
+  const Json* reference = extension_of(root["scenes"][*scene], kImageBasedLight);
   if (reference == nullptr) return {};
   const auto index = (*reference)["light"].get<std::size_t>();
-  return {&(*all)["lights"][index], place_of(fmt::format("extensions.{}.lights", kExtension), index)};
+  return {&(*all)["lights"][index], place_of(fmt::format("extensions.{}.lights", kImageBasedLight), index)};
 }
 
 Sky empty_map(int width) {

@@ -108,7 +108,7 @@ const allowed = [
   // The signature.
   '/asset/extras(/radiosity)?',
   // All data is in one buffer; what is new comes after what there was.
-  '/buffers/0(/(byteLength|uri|extensions))?', '/buffers/\\d+',
+  '/buffers/0(/(byteLength|uri|extensions|extras(/radiosity)?))?', '/buffers/\\d+',
   '/bufferViews/\\d+/(buffer|byteOffset|extensions)', '/bufferViews/$', '/bufferViews',
   '/images/\\d+/(uri|bufferView|mimeType)',
   '/accessors/$',
@@ -190,6 +190,13 @@ function check_extensions(before, after, { data_moves }) {
   })
 }
 
+// Buffers become one, which writes down what described the others; placeholders of compressed data are none.
+function check_buffers({ buffers: [, ...others] = [] }, { buffers: [merged] = [] }) {
+  const is_placeholder = ({ extensions }) => extensions?.[meshopt] !== undefined
+  const described = others.filter((buffer) => !is_placeholder(buffer)).map((buffer) => without(buffer, 'uri', 'byteLength'))
+  assert.deepEqual(merged.extras?.radiosity?.merged ?? [], described.filter((buffer) => Object.keys(buffer).length > 0))
+}
+
 // Every byte that the tree refers to is where it was, but for those that were compressed.
 function check_data(input, output) {
   const is_compressed = (view) => view.extensions?.[meshopt] !== undefined
@@ -235,6 +242,7 @@ export function check_nothing_is_lost(input_file, output_file, { data_moves = fa
     check_data(input, output)
   }
   check_extensions(before, after, { data_moves })
+  check_buffers(before, after)
   check_images(input, output)
   before.nodes?.forEach(({ mesh }, node) => {
     if (mesh === undefined) return

@@ -53,6 +53,7 @@ test('the comparison of trees and bytes sees what is lost', async () => {
     'a joint': (tree) => { tree.skins[0].joints.pop() },
     'a texture of a material that is not baked': (tree) => { delete tree.materials[2].occlusionTexture },
     'the colour of an unlit material': (tree) => { tree.materials[1].pbrMetallicRoughness.baseColorFactor[0] = 1 },
+    'the extras of a second buffer': (tree) => { tree.buffers[0].extras.radiosity.merged[0].extras.none = 1 },
     'a declaration': (tree) => { tree.extensionsUsed.shift() },
     'the name of a copied mesh': (tree) => { tree.meshes.at(-1).name = 'x' },
     'a byte': (tree, bytes) => { bytes[view_bytes({ json: tree, buffers: [bytes] }, 0).byteOffset - bytes.byteOffset] ^= 1 },
