@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "plugin/accessor_view.h"
+#include "plugin/import_textures.h"
 
 namespace gltf_radiosity {
 namespace {
@@ -16,15 +17,15 @@ namespace {
 constexpr std::uint64_t kMaxTexcoord = 63;
 
 constexpr std::string_view kSupportedExtensions[] = {
-    "KHR_draco_mesh_compression", "KHR_texture_transform", "KHR_lights_punctual", "KHR_mesh_quantization",
-    "EXT_texture_webp", "EXT_lights_image_based",
-    "KHR_texture_basisu",  // textures without a plain image: import_textures
-    "KHR_materials_emissive_strength", "KHR_materials_unlit",
-    "KHR_materials_pbrSpecularGlossiness",  // import_materials warns
+    "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression",  // decoded while reading
+    "KHR_texture_transform", "KHR_lights_punctual", "EXT_mesh_gpu_instancing", "KHR_node_visibility",
+    "KHR_mesh_quantization", "EXT_texture_webp", "EXT_lights_image_based", "KHR_texture_basisu", "EXT_texture_avif",
+    "MSFT_texture_dds",  // the plain image or none: import_textures
+    "KHR_materials_emissive_strength", "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_transmission", "KHR_materials_diffuse_transmission", "KHR_materials_volume",
     // These hardly change how diffuse light travels.
-    "KHR_materials_anisotropy", "KHR_materials_clearcoat", "KHR_materials_diffuse_transmission",
-    "KHR_materials_dispersion", "KHR_materials_ior", "KHR_materials_iridescence", "KHR_materials_sheen",
-    "KHR_materials_specular", "KHR_materials_transmission", "KHR_materials_variants", "KHR_materials_volume",
+    "KHR_materials_anisotropy", "KHR_materials_clearcoat", "KHR_materials_dispersion", "KHR_materials_ior",
+    "KHR_materials_iridescence", "KHR_materials_sheen", "KHR_materials_specular", "KHR_materials_variants",
     // These have nothing to do with light.
     "KHR_animation_pointer", "KHR_xmp", "KHR_xmp_json_ld"};
 
@@ -88,11 +89,6 @@ class TreeChecker : private JsonChecker {
         if (!name.is_string()) fail(key, "holds something that is not a string");
       }
     }
-    for (std::size_t i = 0; i < size("bufferViews"); ++i) {
-      if (extension_of(root_["bufferViews"][i], "EXT_meshopt_compression") != nullptr) {
-        fail(place_of("bufferViews", i), "EXT_meshopt_compression is not supported yet");
-      }
-    }
     for (const Json& name : array_of(root_, "extensionsRequired")) {
       if (error_) return;
       const auto text = name.get<std::string>();
@@ -120,7 +116,7 @@ class TreeChecker : private JsonChecker {
       const Json& texture = root_["textures"][i];
       index(texture, "source", "images", place);
       index(texture, "sampler", "samplers", place);
-      for (const char* name : {"EXT_texture_webp", "KHR_texture_basisu"}) {
+      for (const char* name : kImageExtensions) {
         if (const Json* extension = extension_of(texture, name)) index(*extension, "source", "images", place, true);
       }
     }
@@ -136,6 +132,7 @@ class TreeChecker : private JsonChecker {
     if (error_) return;
     const Json* transform = extension_of(*info, "KHR_texture_transform");
     if (transform == nullptr) return;
+    if (!transform->is_object()) return fail(info_place, "KHR_texture_transform is not an object");
     numbers(*transform, "offset", 2, info_place);
     numbers(*transform, "scale", 2, info_place);
     number_if_present(*transform, "rotation", info_place);
@@ -158,8 +155,32 @@ class TreeChecker : private JsonChecker {
         check_texture_info(*pbr, "metallicRoughnessTexture", place + ".pbrMetallicRoughness");
       }
       if (error_) return;
-      const Json* strength = extension_of(material, "KHR_materials_emissive_strength");
-      if (strength != nullptr) number_if_present(*strength, "emissiveStrength", place);
+      check_material_extensions(material, place);
+    }
+  }
+
+  void check_material_extensions(const Json& material, const std::string& place) {
+    if (const Json* strength = extension_of(material, "KHR_materials_emissive_strength")) {
+      number_if_present(*strength, "emissiveStrength", place);
+    }
+    if (const Json* glossy = extension_of(material, "KHR_materials_pbrSpecularGlossiness")) {
+      numbers(*glossy, "diffuseFactor", 4, place);
+      numbers(*glossy, "specularFactor", 3, place);
+      check_texture_info(*glossy, "diffuseTexture", place + ".KHR_materials_pbrSpecularGlossiness");
+    }
+    if (const Json* straight = extension_of(material, "KHR_materials_transmission")) {
+      number_if_present(*straight, "transmissionFactor", place);
+      check_texture_info(*straight, "transmissionTexture", place + ".KHR_materials_transmission");
+    }
+    if (const Json* volume = extension_of(material, "KHR_materials_volume")) {
+      number_if_present(*volume, "thicknessFactor", place);
+      number_if_present(*volume, "attenuationDistance", place);
+      numbers(*volume, "attenuationColor", 3, place);
+    }
+    if (const Json* diffuse = extension_of(material, "KHR_materials_diffuse_transmission")) {
+      number_if_present(*diffuse, "diffuseTransmissionFactor", place);
+      numbers(*diffuse, "diffuseTransmissionColorFactor", 3, place);
+      check_texture_info(*diffuse, "diffuseTransmissionTexture", place + ".KHR_materials_diffuse_transmission");
     }
   }
 
@@ -225,11 +246,35 @@ class TreeChecker : private JsonChecker {
       check_indices(array_in(node, "children", place), "children", "nodes", place);
       check_weights(node, place);
       if (error_) return;
+      if (const Json* visibility = extension_of(node, "KHR_node_visibility")) {
+        bool_if_present(*visibility, "visible", place);
+      }
+      if (const Json* instancing = extension_of(node, "EXT_mesh_gpu_instancing")) check_instancing(*instancing, place);
       const Json* light = extension_of(node, "KHR_lights_punctual");
       if (light == nullptr) continue;
       const std::uint64_t light_index = number(*light, "light", std::nullopt, place);
       if (light_index >= light_count_)
         fail(place, fmt::format("refers to light {}, but there are {}", light_index, light_count_));
+    }
+  }
+
+  void check_instancing(const Json& instancing, const std::string& place) {
+    const Json* attributes = object_in(instancing, "attributes", place);
+    if (attributes == nullptr) return;
+    std::optional<Json> count;
+    for (const auto& [name, value] : attributes->items()) {
+      const auto accessor = index(*attributes, name, "accessors", place);
+      if (!accessor) return;
+      const Json& json = root_["accessors"][*accessor];
+      const bool vector = name == "TRANSLATION" || name == "SCALE";
+      if ((vector && json["type"] != "VEC3") || (name == "ROTATION" && json["type"] != "VEC4")) {
+        return fail(place, fmt::format("{} of its instances cannot be {}", name, json["type"].get<std::string>()));
+      }
+      if (!json.contains("bufferView") && !json.contains("sparse")) {
+        return fail(place, fmt::format("{} of its instances has no data", name));
+      }
+      if (!count) count = json["count"];
+      if (json["count"] != *count) return fail(place, "the attributes of its instances have different counts");
     }
   }
 

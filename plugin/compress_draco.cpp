@@ -256,7 +256,7 @@ void compress_draco(Document& document, BufferBuilder& buffer, int color_bits, s
   // Blobs.
   const std::vector<SharedPrimitive> shared = compressible_primitives(document, warnings);
   std::vector<std::optional<Result<Blob>>> blobs(shared.size());
-  radiosity::parallel_in_chunks(shared.size(), 64, progress, "compress", [&](std::size_t i) {
+  radiosity::parallel_in_chunks(shared.size(), 8, progress, "compress", [&](std::size_t i) {
     const Result<PrimitiveValues> values = read_values(document, shared[i].places[0]);
     blobs[i] = values ? encode(*values, shared[i].position_grid, color_bits) : Result<Blob>(values.error());
   });

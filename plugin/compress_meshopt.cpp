@@ -16,6 +16,7 @@
 #include "core/parallel.h"
 #include "plugin/attribute_grid.h"
 #include "plugin/compressible_primitives.h"
+#include "plugin/meshopt_decode.h"
 #include "plugin/used_extensions.h"
 
 namespace gltf_radiosity {
@@ -129,6 +130,7 @@ Streams encode(const PrimitiveValues& values, int position_grid) {
   // Vertices.
   const auto encode_all = [&](const std::vector<AttributeValues>& attributes) {
     std::vector<Stream> encoded;
+    encoded.reserve(attributes.size());
     for (const AttributeValues& attribute : attributes) {
       encoded.push_back(encode_rows(attribute, new_number, count, position_grid));
     }
@@ -246,7 +248,7 @@ void compress_meshopt(Document& document, BufferBuilder& buffer, std::vector<War
   meshopt_encodeVertexVersion(0);
   const std::vector<SharedPrimitive> shared = compressible_primitives(document, warnings);
   std::vector<std::optional<Result<Streams>>> streams(shared.size());
-  radiosity::parallel_in_chunks(shared.size(), 64, progress, "compress", [&](std::size_t i) {
+  radiosity::parallel_in_chunks(shared.size(), 8, progress, "compress", [&](std::size_t i) {
     const Result<PrimitiveValues> values = read_values(document, shared[i].places[0]);
     streams[i] = values ? Result<Streams>(encode(*values, shared[i].position_grid)) : Result<Streams>(values.error());
   });

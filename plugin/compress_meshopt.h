@@ -9,8 +9,6 @@
 
 namespace gltf_radiosity {
 
-inline constexpr const char* kMeshoptExtension = "EXT_meshopt_compression";
-
 /// Compresses every triangle primitive, morph targets too: it gets accessors of its own whose bufferViews are
 /// compressed, at the end of `buffer`. Floats are rounded to grids (attribute_grid.h); integers and custom attributes
 /// stay as they are. Vertices are put into another order, and those that no triangle uses go; strips and fans become

@@ -3,34 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <optional>
-#include <string_view>
 
 #include "plugin/assemble_triangles.h"
 #include "plugin/attribute_grid.h"
 #include "plugin/check_document.h"
+#include "plugin/used_extensions.h"
 
 namespace gltf_radiosity {
 namespace {
 
-/// Extensions of primitives that do not care about the order of vertices.
-constexpr std::array<std::string_view, 3> kOrderless = {"KHR_materials_variants", "EXT_mesh_features",
-                                                        "EXT_structural_metadata"};
-
 const Json& primitive_at(const Document& document, const SharedPrimitive::Place& place) {
   return document.json["meshes"][place.mesh]["primitives"][place.primitive];
-}
-
-std::optional<std::string> extension_that_names_vertices(const Json& primitive) {
-  if (!primitive.contains("extensions")) return std::nullopt;
-  for (const auto& item : primitive["extensions"].items()) {
-    if (std::find(kOrderless.begin(), kOrderless.end(), item.key()) == kOrderless.end()) return item.key();
-  }
-  return std::nullopt;
 }
 
 /// The longest edge of the box around the floats of an accessor; 0 for anything else.
@@ -70,6 +57,7 @@ std::vector<int> position_grids(const Document& document) {
   // Grids.
   const float largest = extents.empty() ? 0.0F : *std::max_element(extents.begin(), extents.end());
   std::vector<int> grids;
+  grids.reserve(extents.size());
   for (const float extent : extents) grids.push_back(position_grid(extent, largest));
   return grids;
 }

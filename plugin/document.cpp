@@ -10,6 +10,7 @@
 
 #include "plugin/check_document.h"
 #include "plugin/draco_codec.h"
+#include "plugin/meshopt_decode.h"
 
 namespace gltf_radiosity {
 namespace {
@@ -106,6 +107,10 @@ Result<Done> load_buffers(Document& document, std::optional<ByteSpan> bin) {
     const std::string place = place_of("buffers", i);
     const std::uint64_t length = *whole_number(buffers[i]["byteLength"]);
     Bytes bytes;
+    if (is_placeholder(buffers[i])) {
+      document.buffers.emplace_back();
+      continue;
+    }
     if (buffers[i].contains("uri")) {
       Result<Bytes> read = read_uri(buffers[i]["uri"].get<std::string>(), document.folder, place);
       if (!read) return read.error();
@@ -151,6 +156,7 @@ Result<Document> make_document(ByteSpan bytes, const std::filesystem::path& fold
 
   // Data.
   if (auto loaded = load_buffers(document, container.bin); !loaded) return loaded.error();
+  if (auto decoded = decode_meshopt(document); !decoded) return decoded.error();
   if (auto checked = check_sparse_indices(document); !checked) return checked.error();
   if (auto checked = check_image_files(document); !checked) return checked.error();
   if (auto decoded = decode_draco(document); !decoded) return decoded.error();

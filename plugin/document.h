@@ -31,8 +31,8 @@ using Bytes = std::vector<std::uint8_t>;
 ///
 /// Invariant after read_document: every index that this project follows (accessor, bufferView, buffer, mesh, node,
 /// material, texture, image, sampler, light) is in range, every accessor and bufferView lies inside its buffer (in 64
-/// bits), the node hierarchy is a forest, and KHR_draco_mesh_compression has been decoded: those primitives have plain
-/// accessors, and the extension has left the tree.
+/// bits), the node hierarchy is a forest, and what Draco or meshoptimizer compressed has been decoded: there are plain
+/// accessors and bufferViews, and KHR_draco_mesh_compression and EXT_meshopt_compression have left the tree.
 struct Document {
   Json json;
   std::vector<Bytes> buffers;

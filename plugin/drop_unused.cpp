@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <cstddef>
 #include <functional>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -19,10 +20,11 @@ namespace {
 using Visit = std::function<void(Json&)>;
 
 /// Beginnings of names of extensions that refer to neither accessors nor bufferViews, or where this file looks.
-constexpr std::array<std::string_view, 16> kKnown = {
-    "KHR_materials_", "EXT_materials_", "ADOBE_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_",
-    "MSFT_packing_",  "KHR_lights_",    "EXT_lights_",      "KHR_xmp",      "MSFT_lod",     "KHR_mesh_quantization",
-    "KHR_draco_",     "EXT_meshopt_",   "KHR_animation_",   "EXT_mesh_gpu_"};
+constexpr std::array<std::string_view, 17> kKnown = {
+    "KHR_materials_", "EXT_materials_",        "ADOBE_materials_", "KHR_texture_", "EXT_texture_",
+    "MSFT_texture_",  "MSFT_packing_",         "KHR_lights_",      "EXT_lights_",  "KHR_xmp",
+    "MSFT_lod",       "KHR_mesh_quantization", "KHR_draco_",       "EXT_meshopt_", "KHR_animation_",
+    "EXT_mesh_gpu_",  "KHR_node_visibility"};
 
 bool is_known(std::string_view extension) {
   return std::any_of(kKnown.begin(), kKnown.end(),
@@ -206,7 +208,8 @@ void compact_buffer(Document& document, std::size_t buffer) {
   for (Part& part : parts) {
     part.new_begin = (bytes.size() + 3) / 4 * 4 + part.begin % 4;
     bytes.resize(part.new_begin + part.end - part.begin);
-    std::memcpy(bytes.data() + part.new_begin, document.buffers[buffer].data() + part.begin, part.end - part.begin);
+    const auto source = std::span(document.buffers[buffer]).subspan(part.begin, part.end - part.begin);
+    std::copy(source.begin(), source.end(), bytes.begin() + static_cast<std::ptrdiff_t>(part.new_begin));
   }
   document.buffers[buffer] = std::move(bytes);
   root["buffers"][buffer]["byteLength"] = document.buffers[buffer].size();

@@ -188,18 +188,20 @@ std::vector<VertexColors> vertex_colors(const ImportedScene& scene, const radios
   return colors;
 }
 
-Rgb brightest(const VertexColors& colors, float k) {
+Rgb brightest(const VertexColors& colors, std::span<const std::uint32_t> kept, float k) {
   constexpr float kLeast = 0x1p-16F;
   Rgb most(0.0F);
-  for (const glm::vec4& color : colors.unexposed) {
+  const auto look_at = [&](const glm::vec4& color) {
     for (int band = 0; band < 3; ++band) most[band] = std::max(most[band], in_unit_range(color[band] * k));
-  }
+  };
+  if (kept.empty()) std::ranges::for_each(colors.unexposed, look_at);
+  for (const std::uint32_t vertex : kept) look_at(colors.unexposed[vertex]);
   for (int band = 0; band < 3; ++band) most[band] = most[band] > 0.0F ? std::max(most[band], kLeast) : 1.0F;
   return most;
 }
 
-std::size_t export_color_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors, const Rgb& k,
-                                  ColorType type) {
+std::size_t export_color_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors,
+                                  std::span<const std::uint32_t> kept, const Rgb& k, ColorType type) {
   // Expose and clamp.
   std::vector<float> values;
   values.reserve(colors.unexposed.size() * 4);
@@ -216,14 +218,15 @@ std::size_t export_color_accessor(Document& document, BufferBuilder& buffer, con
   const bool normalized = type != ColorType::kFloat;
   const RawAccessor raw{component, 4, normalized, colors.unexposed.size(),
                         encode_floats(values, component, normalized)};
-  return append_accessor(document, buffer, raw, BufferTarget::kVertices);
+  return append_accessor(document, buffer, picked(raw, kept), BufferTarget::kVertices);
 }
 
 std::string radiance_semantic(const Options& options) {
   return options.radiance_attribute.starts_with('_') ? options.radiance_attribute : "_" + options.radiance_attribute;
 }
 
-std::size_t export_radiance_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors, float k) {
+std::size_t export_radiance_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors,
+                                     std::span<const std::uint32_t> kept, float k) {
   std::vector<float> values;
   values.reserve(colors.unexposed.size() * 3);
   for (const glm::vec4& color : colors.unexposed) {
@@ -231,7 +234,7 @@ std::size_t export_radiance_accessor(Document& document, BufferBuilder& buffer, 
   }
   const RawAccessor raw{ComponentType::kF32, 3, false, colors.unexposed.size(),
                         encode_floats(values, ComponentType::kF32, false)};
-  return append_accessor(document, buffer, raw, BufferTarget::kVertices);
+  return append_accessor(document, buffer, picked(raw, kept), BufferTarget::kVertices);
 }
 
 Result<Done> check_attribute_is_free(const Document& document, const ImportedScene& scene, const Options& options) {

@@ -50,19 +50,22 @@ std::vector<VertexColors> vertex_colors(const ImportedScene& scene, const radios
                                         std::span<const RefinedPrimitive> refined, const ColorParts& parts = {},
                                         std::span<const ShownTexture> textures = {});
 
+// Of a primitive that was simplified only the vertices `kept` are written (RefinedPrimitive); all if that is empty.
+
 /// The brightest of each band at exposure k, within [2^-16, 1]; 1 where a band is black.
-radiosity::Rgb brightest(const VertexColors& colors, float k);
+radiosity::Rgb brightest(const VertexColors& colors, std::span<const std::uint32_t> kept, float k);
 
 /// Appends an accessor with k x colours clamped to [0,1] and returns its index. 8 bits are dithered: by less than a
 /// step, and what lies on a step stays.
 std::size_t export_color_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors,
-                                  const radiosity::Rgb& k, ColorType type);
+                                  std::span<const std::uint32_t> kept, const radiosity::Rgb& k, ColorType type);
 
 /// "_NAME" for options.radiance_attribute, with or without its underscore.
 std::string radiance_semantic(const Options& options);
 
 /// Appends an accessor with k x colours, floats without a limit, and returns its index.
-std::size_t export_radiance_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors, float k);
+std::size_t export_radiance_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors,
+                                     std::span<const std::uint32_t> kept, float k);
 
 /// An error if the file has an attribute of the name already.
 Result<Done> check_attribute_is_free(const Document& document, const ImportedScene& scene, const Options& options);

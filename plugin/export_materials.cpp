@@ -5,12 +5,13 @@
 #include <string_view>
 #include <utility>
 
+#include "plugin/json_checker.h"
 #include "plugin/used_extensions.h"
 
 namespace gltf_radiosity {
 namespace {
 
-constexpr const char* kVariants = "KHR_materials_variants";
+constexpr const char* kGlossy = "KHR_materials_pbrSpecularGlossiness";
 constexpr std::string_view kPointer = "/materials/";
 
 /// Extensions of a material that say how it reflects light, or repack textures that do.
@@ -35,15 +36,28 @@ void walk(const Json& value, const std::string& key, const Visit& visit) {
   }
 }
 
+/// The colour and alpha owner[key], ones where there is none, times `factor`.
+void dim(Json& owner, const char* key, const radiosity::Rgb& factor) {
+  Json color = owner.contains(key) ? owner[key] : Json({1.0, 1.0, 1.0, 1.0});
+  for (int band = 0; band < 3; ++band) {
+    Json& share = color[static_cast<std::size_t>(band)];
+    share = share.get<double>() * static_cast<double>(factor[band]);
+  }
+  owner[key] = std::move(color);
+}
+
 }  // namespace
 
 Json unlit_material(const Json& source, const ImportedMaterial& material, const radiosity::Rgb& factor,
                     ShownTexture texture) {
   Json unlit = source.is_object() ? source : Json::object();
 
-  // Base colour: COLOR_0 holds the source's factor.
+  // Base colour: COLOR_0 holds the source's factor. Specular-glossiness has a texture of its own for it.
+  const Json* glossy = extension_of(source, kGlossy);
   Json& pbr = unlit["pbrMetallicRoughness"];
   if (!pbr.is_object()) pbr = Json::object();
+  if (glossy != nullptr) pbr.erase("baseColorTexture");
+  if (glossy != nullptr && glossy->contains("diffuseTexture")) pbr["baseColorTexture"] = (*glossy)["diffuseTexture"];
   if (texture == ShownTexture::kEmissive) pbr["baseColorTexture"] = source["emissiveTexture"];
   pbr.erase("metallicRoughnessTexture");
   pbr.erase("baseColorFactor");
@@ -65,10 +79,10 @@ Json unlit_material(const Json& source, const ImportedMaterial& material, const 
   return unlit;
 }
 
-Json dimmed_material(const Json& source, const ImportedMaterial& material, const radiosity::Rgb& factor) {
+Json dimmed_material(const Json& source, const radiosity::Rgb& factor) {
   Json dimmed = source.is_object() ? source : Json::object();
-  const glm::vec4 left = material.base_color_factor * glm::vec4(factor, 1.0F);
-  dimmed["pbrMetallicRoughness"]["baseColorFactor"] = {left.r, left.g, left.b, left.a};
+  dim(dimmed["pbrMetallicRoughness"], "baseColorFactor", factor);
+  if (extension_of(source, kGlossy) != nullptr) dim(dimmed["extensions"][kGlossy], "diffuseFactor", factor);
   return dimmed;
 }
 
@@ -122,7 +136,7 @@ void forget_unused_material_extensions(Json& root) {
     if (key != "extensions" || !value.is_object()) return;
     for (const auto& item : value.items()) unused.erase(item.key());
   });
-  unused.erase(kVariants);  // its list of names stays at the root
+  unused.erase(kVariantsExtension);  // its list of names stays at the root
   for (const std::string& name : unused) forget_extension(root, name);
 }
 

@@ -13,6 +13,7 @@
 namespace gltf_radiosity {
 
 inline constexpr const char* kUnlitExtension = "KHR_materials_unlit";
+inline constexpr const char* kVariantsExtension = "KHR_materials_variants";
 
 /// An unlit version of `source`, the JSON of the material that `material` was made of (an object without members for
 /// glTF's default material). Kept: name, extras, base colour texture with its transform, alpha mode and cutoff,
@@ -23,8 +24,8 @@ inline constexpr const char* kUnlitExtension = "KHR_materials_unlit";
 Json unlit_material(const Json& source, const ImportedMaterial& material, const radiosity::Rgb& factor = {1, 1, 1},
                     ShownTexture texture = ShownTexture::kBaseColor);
 
-/// `source` with its base colour factor times `factor`, lit as it was.
-Json dimmed_material(const Json& source, const ImportedMaterial& material, const radiosity::Rgb& factor);
+/// `source` with its base colour factor, or the diffuse one of specular-glossiness, times `factor`; lit as it was.
+Json dimmed_material(const Json& source, const radiosity::Rgb& factor);
 
 /// Puts `baked`, made of `material`, into the document and returns its index. It takes the place of the source if
 /// `referenced` (referenced_materials) does not name that, so that files carry no dead materials; otherwise it is

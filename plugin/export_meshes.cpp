@@ -7,10 +7,25 @@
 #include <string>
 #include <utility>
 
-#include "plugin/interpolate_attributes.h"
-
 namespace gltf_radiosity {
 namespace {
+
+std::string joints(std::size_t n) { return "JOINTS_" + std::to_string(n); }
+std::string weights(std::size_t n) { return "WEIGHTS_" + std::to_string(n); }
+
+/// Whether set n is complete and stored as the specification says, so that its pairs can be merged.
+bool has_skin_set(const Document& document, const Json& attributes, std::size_t n) {
+  if (!attributes.contains(joints(n)) || !attributes.contains(weights(n))) return false;
+  const Json& accessors = document.json["accessors"];
+  const Json& joint = accessors[attributes[joints(n)].get<std::size_t>()];
+  const Json& weight = accessors[attributes[weights(n)].get<std::size_t>()];
+  const int type = joint["componentType"].get<int>();
+  return joint["type"] == "VEC4" && weight["type"] == "VEC4" && (type == 5121 || type == 5123);
+}
+
+RawAccessor source_rows(const Document& document, const PrimitiveInstance& instance, std::size_t accessor) {
+  return picked(read_accessor(document, accessor), instance.source_vertex);
+}
 
 /// Rewrites the accessors of one primitive.
 class AttributeExporter {
@@ -21,24 +36,15 @@ class AttributeExporter {
 
   /// REQUIRES: not a pair of JOINTS_n and WEIGHTS_n.
   std::size_t attribute(const std::string& semantic, std::size_t accessor, bool morph_target) {
-    RawAccessor raw = source_rows(accessor);
-    const Interpolation how = morph_target ? Interpolation::kLinear : interpolation_of(semantic, raw);
-    const auto [known, is_new] = exported_.try_emplace({accessor, how}, 0);
-    if (is_new) {
-      append_cuts(raw, how, refined_.cuts);
-      known->second = append(raw, accessor, semantic == "POSITION");
-    }
+    const AttributeRows rows = attribute_rows(document_, instance_, refined_, semantic, accessor, morph_target);
+    const auto [known, is_new] = exported_.try_emplace({accessor, rows.how}, 0);
+    if (is_new) known->second = append(rows.raw, accessor, semantic == "POSITION");
     return known->second;
   }
 
   /// All pairs of JOINTS_n and WEIGHTS_n in `attributes`.
   void skin(Json& attributes) {
-    std::vector<SkinSet> sets;
-    for (std::size_t n = 0; has_skin_set(attributes, n); ++n) {
-      sets.push_back({source_rows(attributes[joints(n)].get<std::size_t>()),
-                      source_rows(attributes[weights(n)].get<std::size_t>())});
-    }
-    append_cuts(sets, refined_.cuts);
+    const std::vector<SkinSet> sets = skin_rows(document_, instance_, refined_, attributes);
     for (std::size_t n = 0; n < sets.size(); ++n) {
       attributes[joints(n)] = append(sets[n].joints, attributes[joints(n)].get<std::size_t>(), false);
       attributes[weights(n)] = append(sets[n].weights, attributes[weights(n)].get<std::size_t>(), false);
@@ -46,33 +52,12 @@ class AttributeExporter {
     skin_set_count_ = sets.size();
   }
 
-  bool is_done(const std::string& semantic) const {
-    for (std::size_t n = 0; n < skin_set_count_; ++n) {
-      if (semantic == joints(n) || semantic == weights(n)) return true;
-    }
-    return false;
-  }
+  bool is_done(const std::string& semantic) const { return is_of_skin(semantic, skin_set_count_); }
 
  private:
-  static std::string joints(std::size_t n) { return "JOINTS_" + std::to_string(n); }
-  static std::string weights(std::size_t n) { return "WEIGHTS_" + std::to_string(n); }
-
-  /// Whether set n is complete and stored as the specification says, so that its pairs can be merged.
-  bool has_skin_set(const Json& attributes, std::size_t n) const {
-    if (!attributes.contains(joints(n)) || !attributes.contains(weights(n))) return false;
-    const Json& accessors = document_.json["accessors"];
-    const Json& joint = accessors[attributes[joints(n)].get<std::size_t>()];
-    const Json& weight = accessors[attributes[weights(n)].get<std::size_t>()];
-    const int type = joint["componentType"].get<int>();
-    return joint["type"] == "VEC4" && weight["type"] == "VEC4" && (type == 5121 || type == 5123);
-  }
-
-  RawAccessor source_rows(std::size_t accessor) const {
-    return picked(read_accessor(document_, accessor), instance_.source_vertex);
-  }
-
   std::size_t append(const RawAccessor& raw, std::size_t like, bool bounds) {
-    return append_accessor(document_, buffer_, raw, BufferTarget::kVertices, document_.json["accessors"][like], bounds);
+    return append_accessor(document_, buffer_, picked(raw, refined_.kept), BufferTarget::kVertices,
+                           document_.json["accessors"][like], bounds);
   }
 
   Document& document_;
@@ -137,6 +122,33 @@ std::vector<RefinedPrimitive> split_by_instance(const radiosity::RefinedMesh& me
   return refined;
 }
 
+AttributeRows attribute_rows(const Document& document, const PrimitiveInstance& instance,
+                             const RefinedPrimitive& refined, std::string_view semantic, std::size_t accessor,
+                             bool morph_target) {
+  AttributeRows rows{source_rows(document, instance, accessor)};
+  if (!morph_target) rows.how = interpolation_of(semantic, rows.raw);
+  append_cuts(rows.raw, rows.how, refined.cuts);
+  return rows;
+}
+
+std::vector<SkinSet> skin_rows(const Document& document, const PrimitiveInstance& instance,
+                               const RefinedPrimitive& refined, const Json& attributes) {
+  std::vector<SkinSet> sets;
+  for (std::size_t n = 0; has_skin_set(document, attributes, n); ++n) {
+    sets.push_back({source_rows(document, instance, attributes[joints(n)].get<std::size_t>()),
+                    source_rows(document, instance, attributes[weights(n)].get<std::size_t>())});
+  }
+  append_cuts(sets, refined.cuts);
+  return sets;
+}
+
+bool is_of_skin(std::string_view semantic, std::size_t set_count) {
+  for (std::size_t n = 0; n < set_count; ++n) {
+    if (semantic == joints(n) || semantic == weights(n)) return true;
+  }
+  return false;
+}
+
 void export_geometry(Document& document, BufferBuilder& buffer, const PrimitiveInstance& instance,
                      const RefinedPrimitive& refined, Json& primitive) {
   // Attributes.
@@ -160,7 +172,7 @@ void export_geometry(Document& document, BufferBuilder& buffer, const PrimitiveI
   // Triangles.
   const Json like = primitive.contains("indices") ? document.json["accessors"][primitive["indices"].get<std::size_t>()]
                                                   : Json::object();
-  const RawAccessor indices = index_rows(refined.triangles, refined.vertices.size());
+  const RawAccessor indices = index_rows(refined.triangles, refined.written_vertex_count());
   primitive["indices"] = append_accessor(document, buffer, indices, BufferTarget::kIndices, like);
   if (primitive.contains("mode")) primitive["mode"] = 4;
 }

@@ -15,6 +15,8 @@
 #include "plugin/export_colors.h"
 #include "plugin/export_materials.h"
 #include "plugin/export_meshes.h"
+#include "plugin/instancing.h"
+#include "plugin/our_extras.h"
 #include "plugin/output_style.h"
 #include "plugin/used_extensions.h"
 
@@ -22,8 +24,6 @@ namespace gltf_radiosity {
 namespace {
 
 using radiosity::Rgb;
-
-constexpr const char* kVariantsExtension = "KHR_materials_variants";
 
 /// How often each mesh is referred to by a member "mesh", anywhere in the tree.
 void count_mesh_references(const Json& value, std::map<std::size_t, std::size_t>& counts) {
@@ -34,20 +34,22 @@ void count_mesh_references(const Json& value, std::map<std::size_t, std::size_t>
 }
 
 /// Gives every node that receives light a mesh that no other node uses; returns the mesh of each instance.
-std::vector<std::size_t> separate_meshes(Json& root, const std::vector<PrimitiveInstance>& instances) {
+/// `nodes` are those of the instances.
+std::vector<std::size_t> separate_meshes(Json& root, const std::vector<PrimitiveInstance>& instances,
+                                         const std::vector<std::size_t>& nodes) {
   // Who is baked, and whether anybody else looks at the same mesh.
   std::map<std::size_t, std::set<std::size_t>> baked_nodes_of_mesh;
-  for (const PrimitiveInstance& instance : instances) {
-    if (instance.receives) baked_nodes_of_mesh[instance.mesh].insert(instance.node);
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    if (instances[i].receives) baked_nodes_of_mesh[instances[i].mesh].insert(nodes[i]);
   }
   std::map<std::size_t, std::size_t> references;
   count_mesh_references(root, references);
 
   // Copies, before anything is edited.
   std::map<std::size_t, std::size_t> mesh_of_node;
-  for (const auto& [mesh, nodes] : baked_nodes_of_mesh) {
-    bool in_place = references[mesh] == nodes.size();
-    for (const std::size_t node : nodes) {
+  for (const auto& [mesh, baked_nodes] : baked_nodes_of_mesh) {
+    bool in_place = references[mesh] == baked_nodes.size();
+    for (const std::size_t node : baked_nodes) {
       if (!std::exchange(in_place, false)) {
         Json copy = root["meshes"][mesh];
         root["meshes"].push_back(std::move(copy));
@@ -57,9 +59,9 @@ std::vector<std::size_t> separate_meshes(Json& root, const std::vector<Primitive
     }
   }
   std::vector<std::size_t> meshes;
-  for (const PrimitiveInstance& instance : instances) {
-    const auto own = mesh_of_node.find(instance.node);
-    meshes.push_back(own == mesh_of_node.end() ? instance.mesh : own->second);
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    const auto own = mesh_of_node.find(nodes[i]);
+    meshes.push_back(own == mesh_of_node.end() ? instances[i].mesh : own->second);
   }
   return meshes;
 }
@@ -67,10 +69,14 @@ std::vector<std::size_t> separate_meshes(Json& root, const std::vector<Primitive
 /// A variant would show a material that is not unlit.
 void drop_variants(Json& primitive, const PrimitiveInstance& instance, std::vector<Warning>& warnings) {
   if (!primitive.contains("extensions") || !primitive["extensions"].contains(kVariantsExtension)) return;
-  primitive["extensions"].erase(kVariantsExtension);
-  if (primitive["extensions"].empty()) primitive.erase("extensions");
-  warnings.push_back({"variants-dropped", place_of_primitive(instance.mesh, instance.primitive),
-                      "the material variants of this primitive were dropped, the default one was baked"});
+  remove_extension(primitive, kVariantsExtension);
+  const std::string place = place_of_primitive(instance.mesh, instance.primitive);
+  const bool said = std::any_of(warnings.begin(), warnings.end(), [&place](const Warning& warning) {
+    return warning.code == "variants-dropped" && warning.place == place;
+  });
+  if (said) return;  // by another node with the same mesh
+  warnings.push_back(
+      {"variants-dropped", place, "the material variants of this primitive were dropped, the default one was baked"});
 }
 
 float exposure(const std::vector<VertexColors>& colors, const Options& options, ExportReport& report) {
@@ -100,11 +106,18 @@ std::optional<Json> baked_material(const Json& source, const ImportedMaterial& m
                                    ShownTexture texture, Target target) {
   if (target == Target::kUnlit) return unlit_material(source, material, factor, texture);
   if (factor == Rgb(1.0F)) return std::nullopt;
-  return dimmed_material(source, material, factor);
+  return dimmed_material(source, factor);
+}
+
+/// What shows its light can no longer be seen through.
+void warn_of_transmission(const ImportedMaterial& material, std::vector<Warning>& warnings) {
+  if (!material.source || !material.transmission) return;
+  warnings.push_back({"transmission-opaque", place_of("materials", *material.source),
+                      "lets light through, but once baked nothing is seen through it: unlit knows no transmission"});
 }
 
 void assign_materials(Document& document, const ImportedScene& scene, const std::vector<BakedPrimitive>& primitives,
-                      const std::vector<ShownTexture>& textures, Target target) {
+                      const std::vector<ShownTexture>& textures, Target target, std::vector<Warning>& warnings) {
   // What stays as it is, and what others look at.
   Json& root = document.json;
   const Json sources = root.value("materials", Json::array());
@@ -129,6 +142,9 @@ void assign_materials(Document& document, const ImportedScene& scene, const std:
     if (!change) continue;
     const auto key = std::tuple(baked.material, baked.factor.x, baked.factor.y, baked.factor.z);
     if (!known.contains(key)) {
+      if (target == Target::kUnlit && version_count[baked.material] == 0) {
+        warn_of_transmission(scene.materials[baked.material], warnings);
+      }
       // Importers that keep materials in files of their own tell them apart by name.
       const std::size_t version = ++version_count[baked.material];
       if (version > 1 && change->contains("name") && (*change)["name"].is_string()) {
@@ -144,16 +160,11 @@ void assign_materials(Document& document, const ImportedScene& scene, const std:
 
 /// Files of one level can share an exposure that is written down.
 void sign(Json& root, const ExportReport& report, const Options& options) {
-  Json& asset = root["asset"];
-  if (asset.contains("extras") && !asset["extras"].is_object()) {
-    Json original = std::move(asset["extras"]);
-    asset["extras"] = {{"original", std::move(original)}};
-  }
-  asset["extras"]["radiosity"] = {{"generator", "gltf-radiosity"},
-                                  {"version", version()},
-                                  {"exposure", report.exposure},
-                                  {"clipped", report.clipped_share}};
-  Json& signature = asset["extras"]["radiosity"];
+  Json& signature = our_extras(root["asset"]);
+  signature = {{"generator", "gltf-radiosity"},
+               {"version", version()},
+               {"exposure", report.exposure},
+               {"clipped", report.clipped_share}};
   if (options.bake != BakedLight::kBoth) signature["light"] = name_of(options.bake);
   if (options.target == Target::kKeep) signature["target"] = "keep";
   if (!options.radiance_attribute.empty()) signature["radiance"] = radiance_semantic(options);
@@ -162,16 +173,17 @@ void sign(Json& root, const ExportReport& report, const Options& options) {
 void count(const PrimitiveInstance& instance, const RefinedPrimitive& refined, ExportReport& report) {
   report.triangles += instance.receives ? refined.triangles.size() : instance.triangle_count;
   report.baked_triangles += instance.receives ? refined.triangles.size() : 0;
-  report.vertices += instance.receives ? refined.vertices.size() : instance.vertex_count;
+  report.vertices += instance.receives ? refined.written_vertex_count() : instance.vertex_count;
 }
 
 }  // namespace
 
 ExportReport export_scene(Document& document, BufferBuilder& buffer, const ImportedScene& scene,
-                          const radiosity::Bake& bake, const Options& options, std::vector<Warning>& warnings) {
+                          const radiosity::Bake& bake, const Options& options, std::vector<Warning>& warnings,
+                          const radiosity::Progress& progress) {
   // One exposure for everything.
   ExportReport report;
-  const std::vector<RefinedPrimitive> refined = split_by_instance(bake.mesh, scene);
+  std::vector<RefinedPrimitive> refined = split_by_instance(bake.mesh, scene);
   const bool unlit = options.target == Target::kUnlit;
   const ColorParts parts{unlit, unlit && options.bake != BakedLight::kIndirect};
   const std::vector<ShownTexture> textures =
@@ -180,28 +192,36 @@ ExportReport export_scene(Document& document, BufferBuilder& buffer, const Impor
   const std::vector<VertexColors> colors = vertex_colors(scene, bake, refined, parts, textures);
   const float k = exposure(colors, options, report);
 
+  // Only what is needed.
+  if (options.simplify) {
+    report.simplified = simplify_scene(document, scene, bake, {colors, k}, options, refined, warnings, progress);
+  }
+
   // Geometry and colours.
+  progress.update("export", 0.0);
   const OutputStyle style = output_style(options);
   std::vector<BakedPrimitive> baked;
-  const std::vector<std::size_t> meshes = separate_meshes(document.json, scene.instances);
+  const std::vector<std::size_t> nodes = expand_copies(document, scene.instances);
+  const std::vector<std::size_t> meshes = separate_meshes(document.json, scene.instances, nodes);
   for (std::size_t i = 0; i < refined.size(); ++i) {
     const PrimitiveInstance& instance = scene.instances[i];
     count(instance, refined[i], report);
     if (!instance.receives) continue;
-    const Rgb factor = style.scale_to_factor ? brightest(colors[i], k) : Rgb(1.0F);
+    const Rgb factor = style.scale_to_factor ? brightest(colors[i], refined[i].kept, k) : Rgb(1.0F);
     baked.push_back({meshes[i], instance.primitive, instance.material, factor});
     Json primitive = primitive_json(document.json, baked.back());
     if (unlit || factor != Rgb(1.0F)) drop_variants(primitive, instance, warnings);
     if (refined[i].changed) export_geometry(document, buffer, instance, refined[i], primitive);
     primitive["attributes"]["COLOR_0"] =
-        export_color_accessor(document, buffer, colors[i], k / factor, style.color_type);
+        export_color_accessor(document, buffer, colors[i], refined[i].kept, k / factor, style.color_type);
     if (!options.radiance_attribute.empty()) {
-      primitive["attributes"][radiance_semantic(options)] = export_radiance_accessor(document, buffer, colors[i], k);
+      primitive["attributes"][radiance_semantic(options)] =
+          export_radiance_accessor(document, buffer, colors[i], refined[i].kept, k);
     }
     primitive_json(document.json, baked.back()) = std::move(primitive);
   }
 
-  assign_materials(document, scene, baked, textures, options.target);
+  assign_materials(document, scene, baked, textures, options.target, warnings);
   sign(document.json, report, options);
   return report;
 }

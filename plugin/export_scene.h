@@ -8,6 +8,7 @@
 #include "plugin/append_accessor.h"
 #include "plugin/document.h"
 #include "plugin/import_scene.h"
+#include "plugin/simplify_scene.h"
 
 namespace gltf_radiosity {
 
@@ -18,13 +19,15 @@ struct ExportReport {
   std::uint64_t triangles = 0;        ///< of all instances, as stored
   std::uint64_t baked_triangles = 0;  ///< those that received light
   std::uint64_t vertices = 0;
+  SimplifyReport simplified;
 };
 
 /// Gives every primitive instance that receives light its COLOR_0, an unlit material (or what options.target says) and,
-/// where it was subdivided, its new geometry; new data goes into `buffer`. A mesh stays where it is for its first baked
-/// node if only baked nodes use it; other nodes get copies. What was done goes into asset.extras.radiosity, warnings
-/// into `warnings`.
+/// where it was subdivided or simplified, its new geometry; new data goes into `buffer`. A mesh stays where it is for
+/// its first baked node if only baked nodes use it; other nodes get copies. Instanced copies become nodes
+/// (instancing.h). What was done goes into asset.extras.radiosity, warnings into `warnings`. Throws `Cancelled`.
 ExportReport export_scene(Document& document, BufferBuilder& buffer, const ImportedScene& scene,
-                          const radiosity::Bake& bake, const Options& options, std::vector<Warning>& warnings);
+                          const radiosity::Bake& bake, const Options& options, std::vector<Warning>& warnings,
+                          const radiosity::Progress& progress);
 
 }  // namespace gltf_radiosity

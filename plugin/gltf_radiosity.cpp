@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/bake.h"
+#include "core/parallel.h"
 #include "plugin/check_options.h"
 #include "plugin/compress_geometry.h"
 #include "plugin/document.h"
@@ -126,12 +127,15 @@ Result<Report> bake_document(Document& document, BufferBuilder& added, const Opt
   add_warnings(bake.report, report.warnings);
 
   // Export.
-  progress.update("export", 0.0);
-  add_figures(export_scene(document, added, *scene, bake, options, report.warnings), report);
+  const auto export_and_compress = [&] {
+    const ExportReport exported = export_scene(document, added, *scene, bake, options, report.warnings, progress);
+    if (options.strip_lights) strip_lights(document);
+    progress.update("export", 1.0);
+    compress_geometry(document, added, options, report.warnings, progress);
+    return exported;
+  };
+  add_figures(radiosity::on_threads(options.threads, export_and_compress), report);
   add_figures(options, report);
-  if (options.strip_lights) strip_lights(document);
-  progress.update("export", 1.0);
-  compress_geometry(document, added, options, report.warnings, progress);
   return report;
 }
 

@@ -43,6 +43,7 @@ struct Sun {
 
 /// Every option of a bake. The defaults are what the command line's --help prints.
 struct Options {
+  std::optional<std::uint32_t> scene;  ///< which scene of the file, counted from 0; none: its default one, or the first
   // Mesh
   Refine refine = Refine::kAdaptive;
   double patch_size = 0.0;         ///< longest edge of the baked mesh, metres; 0 chooses one that suits the scene
@@ -50,6 +51,9 @@ struct Options {
   std::uint64_t max_vertices = 0;  ///< adaptive: or until there are this many; 0: those of the file and 16 000 more
   ErrorSpace error_space = ErrorSpace::kDisplay;       ///< adaptive: in which errors are compared to cut the worst
   std::vector<std::pair<std::string, int>> subdivide;  ///< node name -> times each triangle is cut in four, [0, 8]
+  /// Vertices that neither shape, attributes nor light need are left out; the light may change by `max_error` of its
+  /// mean.
+  bool simplify = false;
   // Nodes, by patterns of their names (*, ?, [...]), with everything below: select_nodes.h
   std::vector<std::string> select;   ///< what receives light; empty: everything
   std::vector<std::string> exclude;  ///< what does not
@@ -90,7 +94,7 @@ struct Options {
 /// Called from one thread at a time.
 struct Callbacks {
   /// `phase` is one of "read", "import", "subdivide", "patches", "direct", "sky", "solve", "gather", "fit", "refine",
-  /// "export", "compress", "write"; `done` in [0,1].
+  /// "simplify", "export", "compress", "write"; `done` in [0,1].
   std::function<void(std::string_view phase, double done)> progress;
   /// Answer true to stop: the bake ends with ErrorCode::kCancelled within a second and writes nothing.
   std::function<bool()> cancelled;
@@ -115,6 +119,7 @@ struct Report {
   std::uint64_t input_vertices = 0;
   std::uint64_t output_triangles = 0;
   std::uint64_t output_vertices = 0;
+  std::uint64_t removed_vertices = 0;  ///< left out because nothing needs them
   std::uint64_t patches = 0;
   std::uint64_t lights = 0;  ///< punctual ones
   std::uint64_t emissive_triangles = 0;

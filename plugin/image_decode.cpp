@@ -5,6 +5,8 @@
 #include <png.h>
 #include <webp/decode.h>
 
+#include <algorithm>
+#include <array>
 #include <csetjmp>
 #include <cstdio>  // jpeglib.h needs FILE
 #include <cstring>
@@ -156,32 +158,44 @@ bool decode_webp(std::span<const std::uint8_t> bytes, Pixels& pixels) {
   return WebPDecodeRGBAInto(bytes.data(), bytes.size(), pixels.rgba.data(), pixels.rgba.size(), width * 4) != nullptr;
 }
 
-bool starts_with(std::span<const std::uint8_t> bytes, std::string_view signature) {
-  return bytes.size() >= signature.size() && std::memcmp(bytes.data(), signature.data(), signature.size()) == 0;
+using Decoder = bool (*)(std::span<const std::uint8_t>, Pixels&);
+
+struct ImageFormat {
+  std::size_t at;
+  std::string_view signature, name;
+  Decoder decoder;  ///< null: there is none
+};
+constexpr std::array<ImageFormat, 6> kImageFormats = {{{0, "\x89PNG", "PNG", decode_png},
+                                                       {0, "\xff\xd8\xff", "JPEG", decode_jpeg},
+                                                       {0, "RIFF", "WebP", decode_webp},
+                                                       {0, "\xabKTX 20\xbb", "KTX2", nullptr},
+                                                       {0, "DDS ", "DDS", nullptr},
+                                                       {4, "ftypavif", "AVIF", nullptr}}};
+
+/// Told by content; null if it is none of them.
+const ImageFormat* format_of(std::span<const std::uint8_t> bytes) {
+  const auto* format = std::find_if(kImageFormats.begin(), kImageFormats.end(), [&bytes](const ImageFormat& known) {
+    return bytes.size() >= known.at + known.signature.size() &&
+           std::memcmp(bytes.data() + known.at, known.signature.data(), known.signature.size()) == 0;
+  });
+  return format == kImageFormats.end() ? nullptr : format;
 }
 
 }  // namespace
 
 Result<Pixels> decode_image(std::span<const std::uint8_t> bytes, const std::string& place) {
-  using Decoder = bool (*)(std::span<const std::uint8_t>, Pixels&);
-  struct Format {
-    std::string_view signature, name;
-    Decoder decoder;
-  };
-  constexpr Format kFormats[] = {{"\x89PNG", "PNG", decode_png},
-                                 {"\xff\xd8\xff", "JPEG", decode_jpeg},
-                                 {"RIFF", "WebP", decode_webp},
-                                 {"\xabKTX 20\xbb", "KTX2", nullptr},
-                                 {"DDS ", "DDS", nullptr}};
-  for (const Format& format : kFormats) {
-    if (!starts_with(bytes, format.signature)) continue;
-    if (format.decoder == nullptr) return bad_input(place, fmt::format("{} textures are not supported", format.name));
-    Pixels pixels;
-    if (!format.decoder(bytes, pixels))
-      return bad_input(place, fmt::format("the {} image is broken or too large", format.name));
-    return pixels;
-  }
-  return bad_input(place, "is neither PNG, JPEG nor WebP");
+  const ImageFormat* format = format_of(bytes);
+  if (format == nullptr) return bad_input(place, "is neither PNG, JPEG nor WebP");
+  if (format->decoder == nullptr) return bad_input(place, fmt::format("{} textures are not supported", format->name));
+  Pixels pixels;
+  if (!format->decoder(bytes, pixels))
+    return bad_input(place, fmt::format("the {} image is broken or too large", format->name));
+  return pixels;
+}
+
+std::string_view unsupported_format(std::span<const std::uint8_t> bytes) {
+  const ImageFormat* format = format_of(bytes);
+  return format != nullptr && format->decoder == nullptr ? format->name : std::string_view();
 }
 
 }  // namespace gltf_radiosity

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "plugin/result.h"
@@ -19,5 +20,8 @@ struct Pixels {
 /// Formats are told apart by content. `place` goes into errors: `images[2]: KTX2 textures are not supported`. At most
 /// 2^28 pixels.
 Result<Pixels> decode_image(std::span<const std::uint8_t> bytes, const std::string& place);
+
+/// The name of a format that glTF knows but nothing here decodes, such as "KTX2"; empty for all others.
+std::string_view unsupported_format(std::span<const std::uint8_t> bytes);
 
 }  // namespace gltf_radiosity

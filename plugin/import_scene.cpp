@@ -21,6 +21,7 @@
 #include "plugin/import_lights.h"
 #include "plugin/import_nodes.h"
 #include "plugin/import_sky.h"
+#include "plugin/instancing.h"
 #include "plugin/select_nodes.h"
 
 namespace gltf_radiosity {
@@ -48,7 +49,7 @@ class SceneImporter {
  public:
   SceneImporter(const Document& document, const tinygltf::Model& model, const Options& options,
                 std::vector<Warning>& warnings)
-      : document_(document), model_(model), options_(options), warnings_(warnings), textures_(document) {}
+      : document_(document), model_(model), options_(options), warnings_(warnings), textures_(document, warnings) {}
 
   Result<ImportedScene> run() {
     if (auto done = import_surfaces(); !done) return done.error();
@@ -68,7 +69,7 @@ class SceneImporter {
   // Nodes.
 
   Result<Done> import_surfaces() {
-    auto placed = place_nodes(document_, model_, options_.subdivide, warnings_);
+    auto placed = place_nodes(document_, model_, options_, warnings_);
     if (!placed) return placed.error();
     auto receives = receiving_nodes(document_, placed->visible, options_, warnings_);
     if (!receives) return receives.error();
@@ -82,25 +83,42 @@ class SceneImporter {
 
   Result<Done> import_node(const PlacedNodes& placed, std::uint32_t node) {
     const Json& json = document_.json["nodes"][node];
-    if (extension_of(json, "EXT_mesh_gpu_instancing") != nullptr) {
-      return bad_input(place_of("nodes", node), "EXT_mesh_gpu_instancing is not supported yet");
-    }
     if (const Json* light = extension_of(json, "KHR_lights_punctual"))
       import_punctual_light(*light, placed.world_from_node[node]);
     const int mesh = model_.nodes[node].mesh;
     if (mesh < 0) return Done{};
-    const std::size_t primitive_count = model_.meshes[static_cast<std::size_t>(mesh)].primitives.size();
-    for (std::size_t primitive = 0; primitive < primitive_count; ++primitive) {
-      if (!has_triangles(model_, static_cast<std::size_t>(mesh), primitive)) {
-        ++skipped_primitives_;
-        continue;
+    if (model_.nodes[node].skin >= 0 && instancing_of(document_, node) != nullptr) {
+      return bad_input(place_of("nodes", node), "EXT_mesh_gpu_instancing does not say where skinned copies stand");
+    }
+    std::uint32_t copy = 0;
+    for (const glm::dmat4& node_from_copy : copy_transforms(document_, node)) {
+      if (auto done = import_copy(placed, {node, copy++, placed.world_from_node[node] * node_from_copy}); !done) {
+        return done.error();
       }
-      if (auto done = import_instance(placed, node, primitive); !done) return done.error();
     }
     return Done{};
   }
 
-  Result<Done> import_instance(const PlacedNodes& placed, std::uint32_t node, std::size_t primitive) {
+  /// One of the copies of a node's mesh; nodes without EXT_mesh_gpu_instancing have one.
+  struct Copy {
+    std::uint32_t node = 0, number = 0;
+    glm::dmat4 world_from_mesh{1.0};
+  };
+
+  Result<Done> import_copy(const PlacedNodes& placed, const Copy& copy) {
+    const auto mesh = static_cast<std::size_t>(model_.nodes[copy.node].mesh);
+    for (std::size_t primitive = 0; primitive < model_.meshes[mesh].primitives.size(); ++primitive) {
+      if (!has_triangles(model_, mesh, primitive)) {
+        if (copy.number == 0) ++skipped_primitives_;
+        continue;
+      }
+      if (auto done = import_instance(placed, copy, primitive); !done) return done.error();
+    }
+    return Done{};
+  }
+
+  Result<Done> import_instance(const PlacedNodes& placed, const Copy& copy, std::size_t primitive) {
+    const std::uint32_t node = copy.node;
     // What it is made of.
     const auto mesh = static_cast<std::size_t>(model_.nodes[node].mesh);
     const Result<std::uint32_t> material = material_index(model_.meshes[mesh].primitives[primitive].material);
@@ -120,19 +138,20 @@ class SceneImporter {
     instance.node = node;
     instance.mesh = static_cast<std::uint32_t>(mesh);
     instance.primitive = static_cast<std::uint32_t>(primitive);
+    instance.copy = copy.number;
     instance.material = *material;
     instance.first_vertex = static_cast<std::uint32_t>(scene.positions.size());
     instance.vertex_count = static_cast<std::uint32_t>(source.positions.size());
     instance.first_triangle = static_cast<std::uint32_t>(scene.triangles.size());
     instance.triangle_count = static_cast<std::uint32_t>(source.triangles.size());
-    instance.receives = !result_.materials[*material].unlit && node_receives_[node] != 0;
+    instance.receives = result_.materials[*material].receives() && node_receives_[node] != 0;
     instance.source_vertex = source.source_vertex;
 
     // Where it stands.
     const std::vector<glm::dmat4> joints = world_from_bind(placed, node);
     if (joints.empty() || source.weights.empty()) {
-      instance.mirrored = glm::determinant(glm::dmat3(placed.world_from_node[node])) < 0.0;
-      place_vertices(source, {&placed.world_from_node[node], 1});
+      instance.mirrored = glm::determinant(glm::dmat3(copy.world_from_mesh)) < 0.0;
+      place_vertices(source, {&copy.world_from_mesh, 1});
     } else {
       instance.mirrored = glm::determinant(glm::dmat3(joints[0])) < 0.0;
       place_vertices(source, skin_transforms(source, joints));
@@ -182,7 +201,7 @@ class SceneImporter {
 
     const ImportedMaterial& used = result_.materials[material];
     std::set<int> texcoords;
-    for (const TextureSlot* slot : {&used.base_color, &used.emissive_texture, &used.metallic_roughness}) {
+    for (const TextureSlot* slot : used.textures()) {
       if (*slot) texcoords.insert(slot->texcoord);
     }
     auto geometry = read_primitive(document_, model_, mesh, primitive, texcoords, weights);
@@ -237,7 +256,7 @@ class SceneImporter {
     const auto known = material_of_source_.find(source);
     if (known != material_of_source_.end()) return known->second;
     const auto index = source < 0 ? std::nullopt : std::optional(static_cast<std::uint32_t>(source));
-    auto material = import_material(document_, model_, index, options_.metals, textures_, warnings_);
+    auto material = import_material(document_, model_, index, options_.metals, textures_);
     if (!material) return material.error();
     result_.materials.push_back(std::move(*material));
     const auto added = static_cast<std::uint32_t>(result_.materials.size() - 1);
@@ -257,9 +276,13 @@ class SceneImporter {
     surface.see_through = may_let_light_through(material, has_colors);
     surface.reflectance = Rgb(0.0F);
     if (!material.unlit) {
+      // What lets light through is asked at each hit anyhow.
+      const auto textures = material.textures();
+      const bool textured =
+          std::any_of(textures.begin(), textures.end(), [](const TextureSlot* slot) { return !!*slot; });
       surface.reflectance = Rgb(material.base_color_factor) * material.diffuse_share(1.0F);
       surface.emission = material.emissive;
-      surface.varies = has_colors || material.base_color || material.emissive_texture || material.metallic_roughness;
+      surface.varies = has_colors || textured || material.transmission;
     }
     const auto index = static_cast<std::uint32_t>(result_.scene.surfaces.size());
     result_.scene.surfaces.push_back(surface);
@@ -270,6 +293,7 @@ class SceneImporter {
   }
 
   static bool may_let_light_through(const ImportedMaterial& material, bool has_colors) {
+    if (material.transmission && !material.unlit) return true;
     if (material.alpha_mode == AlphaMode::kOpaque) return false;
     if (material.base_color || has_colors) return true;
     const float opaque_from = material.alpha_mode == AlphaMode::kMask ? material.alpha_cutoff : 1.0F;
@@ -325,10 +349,10 @@ class SceneImporter {
     const bool any = std::any_of(result_.instances.begin(), result_.instances.end(),
                                  [](const PrimitiveInstance& instance) { return instance.receives; });
     if (any) return Done{};
-    const bool all_unlit =
-        std::all_of(result_.instances.begin(), result_.instances.end(),
-                    [&](const PrimitiveInstance& instance) { return result_.materials[instance.material].unlit; });
-    return bad_input("", all_unlit ? "nothing to bake: every material of the scene is unlit"
+    const bool all_shown = std::none_of(
+        result_.instances.begin(), result_.instances.end(),
+        [&](const PrimitiveInstance& instance) { return result_.materials[instance.material].receives(); });
+    return bad_input("", all_shown ? "nothing to bake: every material of the scene is unlit or clear"
                                    : "nothing to bake: no node with a material that is lit receives light");
   }
 
@@ -392,10 +416,12 @@ Result<ImportedScene> import_scene(const Document& document, const Options& opti
   return SceneImporter(document, **model, options, warnings).run();
 }
 
-Result<ImportedScene> import_displayed(const Document& document, std::vector<Warning>& warnings) {
+Result<ImportedScene> import_displayed(const Document& document, std::optional<std::uint32_t> scene,
+                                       std::vector<Warning>& warnings) {
   const auto model = typed_view(document);
   if (!model) return model.error();
-  const Options options;
+  Options options;
+  options.scene = scene;
   return SceneImporter(document, **model, options, warnings).run_without_light();
 }
 

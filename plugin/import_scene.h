@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/scene.h"
@@ -18,8 +19,11 @@ struct PrimitiveInstance {
   std::uint32_t material = 0;                            ///< index into ImportedScene::materials
   std::uint32_t first_vertex = 0, vertex_count = 0;      ///< in Scene::positions
   std::uint32_t first_triangle = 0, triangle_count = 0;  ///< in Scene::triangles
-  bool receives = true;   ///< gets COLOR_0; otherwise it only casts and sends light (select_nodes.h) or is unlit
-  bool mirrored = false;  ///< the node's world transform turns triangles over
+  /// Gets COLOR_0; otherwise it only casts and sends light (select_nodes.h), is unlit or clear
+  /// (ImportedMaterial::receives).
+  bool receives = true;
+  std::uint32_t copy = 0;  ///< which of the copies that EXT_mesh_gpu_instancing makes of the node's mesh
+  bool mirrored = false;   ///< the node's world transform turns triangles over
   /// Which vertex of the glTF primitive each scene vertex is, [vertex_count]; empty means the same, in order. Differs
   /// for a primitive without normals, which glTF shades flat: a vertex between faces that crease is split.
   std::vector<std::uint32_t> source_vertex;
@@ -36,14 +40,15 @@ struct ImportedScene {
   std::uint64_t punctual_light_count = 0, emissive_triangle_count = 0;
 };
 
-/// Walks the default scene (the first if none is the default, every root if there are no scenes): triangles, strips and
-/// fans of all nodes in world space, their materials, lights, sky and sun. What moves is taken in its rest pose. Adds
+/// Walks a scene (options.scene; else the default, else the first, else every root): triangles, strips and fans of all
+/// nodes in world space, their materials, lights, sky and sun. What moves is taken in its rest pose. Adds
 /// warnings to `warnings`. "nothing to bake" is an error; so are a scene of more than 2^32 triangles or vertices
 /// (ErrorCode::kLimit) and options that do not suit the file (kBadOption).
 Result<ImportedScene> import_scene(const Document& document, const Options& options, std::vector<Warning>& warnings);
 
 /// The same walk for a scene that is only to be looked at, as one that is baked already: everything may be unlit, and
-/// nothing shines on it from outside.
-Result<ImportedScene> import_displayed(const Document& document, std::vector<Warning>& warnings);
+/// nothing shines on it from outside. `scene` as in Options.
+Result<ImportedScene> import_displayed(const Document& document, std::optional<std::uint32_t> scene,
+                                       std::vector<Warning>& warnings);
 
 }  // namespace gltf_radiosity

@@ -13,6 +13,7 @@
 #include "plugin/check_document.h"
 #include "plugin/hdr_decode.h"
 #include "plugin/image_decode.h"
+#include "plugin/import_nodes.h"
 #include "plugin/srgb.h"
 
 namespace gltf_radiosity {
@@ -21,7 +22,7 @@ namespace {
 using radiosity::Rgb;
 using radiosity::Sky;
 
-constexpr const char* kExtension = "EXT_lights_image_based";
+constexpr const char* kImageBasedLight = "EXT_lights_image_based";
 
 /// Four times as wide, a map of such faces is within the bounds of HDR images.
 constexpr int kMaxFaceSize = 2048;
@@ -31,15 +32,14 @@ struct FileLight {
   std::string place;
 };
 
-/// The image-based light of the scene that is baked.
-FileLight file_light(const Json& root) {
-  const Json& scenes = array_of(root, "scenes");
-  const Json* all = extension_of(root, kExtension);
-  if (scenes.empty() || all == nullptr) return {};
-  const Json* reference = extension_of(scenes[root.value("scene", std::size_t{0})], kExtension);
+/// The image-based light of a scene.
+FileLight file_light(const Json& root, std::optional<std::size_t> scene) {
+  const Json* all = extension_of(root, kImageBasedLight);
+  if (!scene || all == nullptr) return {};
+  const Json* reference = extension_of(root["scenes"][*scene], kImageBasedLight);
   if (reference == nullptr) return {};
   const auto index = (*reference)["light"].get<std::size_t>();
-  return {&(*all)["lights"][index], place_of(fmt::format("extensions.{}.lights", kExtension), index)};
+  return {&(*all)["lights"][index], place_of(fmt::format("extensions.{}.lights", kImageBasedLight), index)};
 }
 
 Sky empty_map(int width) {
@@ -150,7 +150,9 @@ Result<std::optional<Sky>> import_sky(const Document& document, const Options& o
                                       std::vector<Warning>& warnings) {
   auto sky = sky_of_options(options);
   if (!sky) return sky.error();
-  const FileLight light = file_light(document.json);
+  const auto scene = chosen_scene(document.json, options.scene);
+  if (!scene) return scene.error();
+  const FileLight light = file_light(document.json, *scene);
   if (*sky && light.light != nullptr) {
     warnings.push_back({"image-based-light-replaced", light.place, "--sky replaces the image-based light of the file"});
   } else if (light.light != nullptr && light.light->value("intensity", 1.0F) > 0.0F) {

@@ -1,5 +1,7 @@
 #include "plugin/import_textures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -146,6 +148,17 @@ int wrapped(int index, int size, Wrap wrap) {
 Wrap wrap_of(const Json& sampler, const char* key) {
   const auto wrap = static_cast<Wrap>(sampler.value(key, 10497));
   return wrap == Wrap::kClampToEdge || wrap == Wrap::kMirroredRepeat ? wrap : Wrap::kRepeat;
+}
+
+/// The images of a texture, those in formats of their own before the plain one that stands in for them.
+std::vector<std::size_t> image_sources(const Json& texture) {
+  std::vector<std::size_t> sources;
+  for (const char* name : kImageExtensions) {
+    const Json* extension = extension_of(texture, name);
+    if (extension != nullptr) sources.push_back((*extension)["source"].get<std::size_t>());
+  }
+  if (texture.contains("source")) sources.push_back(texture["source"].get<std::size_t>());
+  return sources;
 }
 
 bool is_sane(glm::vec2 uv) { return std::abs(uv.x) < kFarAway && std::abs(uv.y) < kFarAway; }  // false for NaN
@@ -329,25 +342,40 @@ Result<TextureSlot> TextureLibrary::slot(const Json& info, TexelKind kind) {
     slot.wrap_t = wrap_of(sampler, "wrapT");
   }
 
-  // Image: WebP where there is one, else the plain one.
-  const Json* webp = extension_of(texture, "EXT_texture_webp");
-  const Json& holder = webp != nullptr ? *webp : texture;
-  if (!holder.contains("source")) {
-    const bool basisu = extension_of(texture, "KHR_texture_basisu") != nullptr;
-    return bad_input(place_of("textures", index),
-                     basisu ? "KHR_texture_basisu is not supported and there is no plain image" : "has no image");
-  }
-  const auto source = holder["source"].get<std::size_t>();
-  std::shared_ptr<const MipPyramid>& image = decoded_[{source, kind}];
-  if (!image) {
+  // Image.
+  auto image = image_of(index, kind);
+  if (!image) return image.error();
+  slot.image = std::move(*image);
+  return slot;
+}
+
+Result<std::shared_ptr<const MipPyramid>> TextureLibrary::image_of(std::size_t texture, TexelKind kind) {
+  const std::vector<std::size_t> sources = image_sources(document_.json["textures"][texture]);
+  const std::string place = place_of("textures", texture);
+  if (sources.empty()) return bad_input(place, "has no image");
+  std::string_view unread;
+  std::shared_ptr<const MipPyramid> image;
+  for (const std::size_t source : sources) {
+    image = decoded_[{source, kind}];
+    if (image) break;
     const Result<Bytes> bytes = image_bytes(document_, source);
     if (!bytes) return bytes.error();
+    unread = unsupported_format(*bytes);
+    if (!unread.empty()) continue;
     Result<Pixels> pixels = decode_image(*bytes, place_of("images", source));
     if (!pixels) return pixels.error();
-    image = make_pyramid(std::move(*pixels), kind);
+    image = decoded_[{source, kind}] = make_pyramid(std::move(*pixels), kind);
+    break;
   }
-  slot.image = image;
-  return slot;
+  if (unread_.contains(texture) || (image && image == decoded_[{sources.front(), kind}])) return image;
+  unread_.insert(texture);
+  warnings_.push_back(
+      image ? Warning{"texture-fallback", place, "the format of its image cannot be decoded; the plain image was used"}
+            : Warning{"texture-unread", place,
+                      fmt::format("{} images cannot be decoded and there is no plain one; the light "
+                                  "was computed as if the texture was white",
+                                  unread)});
+  return image;
 }
 
 }  // namespace gltf_radiosity

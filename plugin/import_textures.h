@@ -7,6 +7,7 @@
 #include <glm/vec4.hpp>
 #include <map>
 #include <memory>
+#include <set>
 #include <tuple>
 #include <vector>
 
@@ -44,16 +45,25 @@ struct TextureSlot {
   glm::vec2 transformed(glm::vec2 uv) const;
 };
 
-/// Decodes each image once. An image that cannot be decoded is an error that names it.
+/// Extensions of a texture that name an image in a format of their own.
+inline constexpr std::array kImageExtensions = {"EXT_texture_webp", "KHR_texture_basisu", "EXT_texture_avif",
+                                                "MSFT_texture_dds"};
+
+/// Decodes each image once. A broken image is an error that names it. Of a format that nothing here decodes (KTX2) the
+/// plain image is taken, or none, which is white; a warning names the texture.
 class TextureLibrary {
  public:
-  /// `document` must outlive the library.
-  explicit TextureLibrary(const Document& document) : document_(document) {}
+  /// Both must outlive the library.
+  TextureLibrary(const Document& document, std::vector<Warning>& warnings) : document_(document), warnings_(warnings) {}
   /// `info` is a glTF textureInfo object ({"index": ..., "texCoord": ...}).
   Result<TextureSlot> slot(const Json& info, TexelKind kind);
 
  private:
+  Result<std::shared_ptr<const MipPyramid>> image_of(std::size_t texture, TexelKind kind);
+
   const Document& document_;
+  std::vector<Warning>& warnings_;
+  std::set<std::size_t> unread_;  ///< textures that were warned of
   std::map<std::pair<std::size_t, TexelKind>, std::shared_ptr<const MipPyramid>> decoded_;
 };
 

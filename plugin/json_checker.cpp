@@ -10,7 +10,7 @@ namespace gltf_radiosity {
 namespace {
 
 /// No file this project can bake comes near it, and nothing below it overflows 64 bits when multiplied by a stride.
-constexpr std::uint64_t kMaxCount = std::uint64_t{1} << 40;
+constexpr std::uint64_t kMaxWholeNumber = std::uint64_t{1} << 40;
 
 }  // namespace
 
@@ -39,7 +39,7 @@ std::uint64_t JsonChecker::number(const Json& object, const std::string& key, st
     return fallback.value_or(0);
   }
   const auto value = whole_number(object.at(key));
-  if (!value || *value > kMaxCount) fail(place, fmt::format("\"{}\" is not a whole number in range", key));
+  if (!value || *value > kMaxWholeNumber) fail(place, fmt::format("\"{}\" is not a whole number in range", key));
   return value.value_or(0);
 }
 

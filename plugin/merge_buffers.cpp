@@ -6,7 +6,9 @@
 #include <string_view>
 #include <utility>
 
-#include "plugin/compress_meshopt.h"
+#include "plugin/check_document.h"
+#include "plugin/meshopt_decode.h"
+#include "plugin/our_extras.h"
 
 namespace gltf_radiosity {
 namespace {
@@ -66,10 +68,15 @@ Bytes merge_buffers(Document& document, const BufferBuilder& added) {
   places.push_back({0, append_aligned(merged, added.bytes())});
   places.push_back({1, 0});
 
-  // Tree. The first buffer keeps its name and extras.
+  // Tree. The first buffer keeps its name and extras, and writes down what the others had.
   rebase_views(root, places);
   Json buffer = root.contains("buffers") && !root["buffers"].empty() ? root["buffers"][0] : Json::object();
   buffer.erase("uri");
+  for (std::size_t i = 1; i < array_of(root, "buffers").size(); ++i) {
+    Json described = root["buffers"][i];
+    for (const char* key : {"uri", "byteLength"}) described.erase(key);
+    if (!described.empty()) our_extras(buffer)["merged"].push_back(std::move(described));
+  }
   buffer["byteLength"] = merged.size();
   if (merged.empty()) {
     root.erase("buffers");

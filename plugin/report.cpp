@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -54,6 +55,8 @@ void add_figures(const radiosity::BakeReport& bake, Report& report) {
 void add_figures(const ExportReport& exported, Report& report) {
   report.output_triangles = exported.triangles;
   report.output_vertices = exported.vertices;
+  report.removed_vertices = exported.simplified.removed_vertices;
+  report.estimated_error = std::hypot(report.estimated_error, exported.simplified.light_change);
   report.exposure = exported.exposure;
   report.clipped_share = exported.clipped_share;
   report.baked_triangles = exported.baked_triangles;
@@ -110,6 +113,7 @@ std::string to_json(const Report& report) {
                {"inputVertices", report.input_vertices},
                {"outputTriangles", report.output_triangles},
                {"outputVertices", report.output_vertices},
+               {"removedVertices", report.removed_vertices},
                {"patches", report.patches},
                {"lights", report.lights},
                {"emissiveTriangles", report.emissive_triangles},

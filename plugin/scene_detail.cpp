@@ -33,8 +33,11 @@ glm::vec4 SceneDetail::vertex_color(std::uint32_t triangle, Barycentrics at) con
 
 Rgb SceneDetail::unlit_color(std::uint32_t triangle, Barycentrics at) const {
   const ImportedMaterial& material = material_of(triangle);
-  const glm::vec4 texel = material.base_color.at(texcoord(material.base_color.texcoord, triangle, at));
-  return Rgb(material.base_color_factor * texel * vertex_color(triangle, at));
+  return Rgb(material.base_color_factor * texel(material.base_color, triangle, at) * vertex_color(triangle, at));
+}
+
+glm::vec4 SceneDetail::texel(const TextureSlot& slot, std::uint32_t triangle, Barycentrics at) const {
+  return slot ? slot.at(texcoord(slot.texcoord, triangle, at)) : glm::vec4(1.0F);
 }
 
 glm::vec4 SceneDetail::texture_mean(const TextureSlot& slot, std::uint32_t triangle, const SubTriangle& part) const {
@@ -44,7 +47,7 @@ glm::vec4 SceneDetail::texture_mean(const TextureSlot& slot, std::uint32_t trian
                     texcoord(slot.texcoord, triangle, part.corner[2])});
 }
 
-Rgb SceneDetail::reflectance(std::uint32_t triangle, const SubTriangle& part) const {
+Rgb SceneDetail::shown_reflectance(std::uint32_t triangle, const SubTriangle& part) const {
   const ImportedMaterial& material = material_of(triangle);
   if (material.unlit) return Rgb(0.0F);
   // Linear in between, so the mean is the value at the middle.
@@ -52,6 +55,16 @@ Rgb SceneDetail::reflectance(std::uint32_t triangle, const SubTriangle& part) co
   const glm::vec4 mean =
       material.base_color_factor * texture_mean(material.base_color, triangle, part) * vertex_color(triangle, middle);
   return Rgb(mean) * material.diffuse_share(texture_mean(material.metallic_roughness, triangle, part).z);
+}
+
+Rgb SceneDetail::reflectance(std::uint32_t triangle, const SubTriangle& part) const {
+  const ImportedMaterial& material = material_of(triangle);
+  const Rgb shown = shown_reflectance(triangle, part);
+  if (material.unlit || !material.transmission) return shown;
+  const float straight = texture_mean(material.transmission.straight_texture, triangle, part).x;
+  const float diffuse = texture_mean(material.transmission.diffuse_texture, triangle, part).w;
+  const Transmission::Shares shares = material.transmission.shares(shown, straight, diffuse);
+  return shares.passes < 1.0F ? shown * (shares.reflects / (1.0F - shares.passes)) : Rgb(0.0F);
 }
 
 Rgb SceneDetail::emission(std::uint32_t triangle, const SubTriangle& part) const {
@@ -62,11 +75,17 @@ Rgb SceneDetail::emission(std::uint32_t triangle, const SubTriangle& part) const
 
 float SceneDetail::opacity(std::uint32_t triangle, Barycentrics at) const {
   const ImportedMaterial& material = material_of(triangle);
-  if (material.alpha_mode == AlphaMode::kOpaque) return 1.0F;
-  float alpha = material.base_color_factor.w * vertex_color(triangle, at).w;
-  if (material.base_color) alpha *= material.base_color.at(texcoord(material.base_color.texcoord, triangle, at)).w;
-  if (material.alpha_mode == AlphaMode::kMask) return alpha < material.alpha_cutoff ? 0.0F : 1.0F;
-  return alpha;
+  const glm::vec4 color =
+      material.base_color_factor * vertex_color(triangle, at) * texel(material.base_color, triangle, at);
+  float coverage = 1.0F;
+  if (material.alpha_mode == AlphaMode::kMask) coverage = color.w < material.alpha_cutoff ? 0.0F : 1.0F;
+  if (material.alpha_mode == AlphaMode::kBlend) coverage = color.w;
+  if (material.unlit || !material.transmission) return coverage;
+  const Transmission& through = material.transmission;
+  return coverage * (1.0F - through
+                                .shares(color, texel(through.straight_texture, triangle, at).x,
+                                        texel(through.diffuse_texture, triangle, at).w)
+                                .passes);
 }
 
 glm::vec3 mean_base_color_texture(const ImportedScene& scene, std::uint32_t instance, std::uint32_t triangle,

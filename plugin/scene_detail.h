@@ -31,10 +31,14 @@ class SceneDetail : public radiosity::SurfaceDetail {
   std::vector<std::vector<glm::vec2>>
       texcoords;  ///< by set; [vertex_count] each, or empty where no material asks for it
 
+  /// What is reflected of the light that no ray carries through: mean base colour, less what is transmitted.
   radiosity::Rgb reflectance(std::uint32_t triangle, const radiosity::SubTriangle& part) const override;
   radiosity::Rgb emission(std::uint32_t triangle, const radiosity::SubTriangle& part) const override;
   float opacity(std::uint32_t triangle, radiosity::Barycentrics at) const override;
 
+  /// Mean of what the surface shows of white light when it is baked: the base colour that reflects diffusely. What is
+  /// transmitted is not taken off, for an unlit material knows no transmission.
+  radiosity::Rgb shown_reflectance(std::uint32_t triangle, const radiosity::SubTriangle& part) const;
   /// COLOR_0 at a point, linear RGBA; white where the surface has none.
   glm::vec4 vertex_color(std::uint32_t triangle, radiosity::Barycentrics at) const;
   /// What an engine that knows no light shows at a point: base colour factor times texture times COLOR_0, linear.
@@ -44,6 +48,8 @@ class SceneDetail : public radiosity::SurfaceDetail {
 
  private:
   const ImportedMaterial& material_of(std::uint32_t triangle) const;
+  /// A texture of the triangle's material at a point, linear RGBA; white for an empty slot.
+  glm::vec4 texel(const TextureSlot& slot, std::uint32_t triangle, radiosity::Barycentrics at) const;
   glm::vec2 texcoord(int set, std::uint32_t triangle, radiosity::Barycentrics at) const;
 };
 

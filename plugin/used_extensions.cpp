@@ -1,9 +1,15 @@
 #include "plugin/used_extensions.h"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 namespace gltf_radiosity {
 namespace {
+
+/// Extensions of primitives that do not care about the order of vertices.
+constexpr std::array<std::string_view, 3> kOrderless = {"KHR_materials_variants", "EXT_mesh_features",
+                                                        "EXT_structural_metadata"};
 
 void add_name(Json& names, const std::string& name) {
   if (std::find(names.begin(), names.end(), Json(name)) == names.end()) names.push_back(name);
@@ -32,6 +38,14 @@ void remove_extension(Json& object, const std::string& extension) {
   Json& extensions = object["extensions"];
   extensions.erase(extension);
   if (extensions.empty()) object.erase("extensions");
+}
+
+std::optional<std::string> extension_that_names_vertices(const Json& primitive) {
+  if (!primitive.contains("extensions")) return std::nullopt;
+  for (const auto& item : primitive["extensions"].items()) {
+    if (std::find(kOrderless.begin(), kOrderless.end(), item.key()) == kOrderless.end()) return item.key();
+  }
+  return std::nullopt;
 }
 
 }  // namespace gltf_radiosity

@@ -39,10 +39,7 @@ bool is_clipped(const ImportedScene& output, const SurfacePlace& place) {
 }
 
 Rgb displayed_reflectance(const ImportedScene& input, const SurfacePlace& place) {
-  const radiosity::Scene& scene = input.scene;
-  const radiosity::Surface& surface = scene.surfaces[scene.surface_of_triangle[place.triangle]];
-  return surface.varies ? scene.detail->reflectance(place.triangle, {{place.at, place.at, place.at}})
-                        : surface.reflectance;
+  return input.detail->shown_reflectance(place.triangle, {{place.at, place.at, place.at}});
 }
 
 SourceFinder::SourceFinder(const ImportedScene& input, const radiosity::RayScene& rays, const ImportedScene& output)

@@ -76,7 +76,7 @@ Result<BothScenes> read_both(const std::string& input, const std::string& output
   if (const auto checked = check_that_all_light_is_shown(baked->json); !checked)
     return in_file(output, checked.error());
   std::vector<Warning> same_again;  // the source was warned about
-  Result<ImportedScene> baked_scene = import_displayed(*baked, same_again);
+  Result<ImportedScene> baked_scene = import_displayed(*baked, options.scene, same_again);
   if (!baked_scene) return in_file(output, baked_scene.error());
   both.output = std::move(*baked_scene);
   both.written_exposure = written_exposure(baked->json);

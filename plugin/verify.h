@@ -25,7 +25,7 @@ struct VerifyCamera {
 };
 
 struct VerifyOptions {
-  /// As for the bake: sky, sun, default_sky, metals, light_units, and threads. The others have no effect.
+  /// As for the bake: scene, sky, sun, default_sky, metals, light_units, and threads. The others have no effect.
   Options bake;
   int points = 2000;       ///< random places on the baked surfaces, [1, 1e7]
   double noise = 0.005;    ///< wanted of the truth: root mean variance over mean luminance, above 0

@@ -21,7 +21,7 @@ def _nested(json):
         if "baseColorTexture" in material["pbrMetallicRoughness"]:
             yield material["pbrMetallicRoughness"]["baseColorTexture"], "baseColorTexture"
     for camera in json["cameras"]:
-        yield camera["perspective"], "perspective"
+        yield camera[camera["type"]], camera["type"]
     for animation in json["animations"]:
         for sampler in animation["samplers"]:
             yield sampler, "animation.sampler"
@@ -33,11 +33,13 @@ def _nested(json):
 def decorate(gltf):
     gltf.use_extension(UNKNOWN)
     json = gltf.json
-    json["buffers"] = [{}]
+    json["buffers"] = [{} for _ in gltf.buffers]
     for array in ("accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials", "meshes",
-                  "nodes", "samplers", "scenes", "textures"):
-        for item in json[array]:
+                  "nodes", "samplers", "scenes", "skins", "textures"):
+        for item in json.get(array, []):
             _decorate(item, array)
+    for light in json["extensions"]["KHR_lights_punctual"]["lights"]:
+        _decorate(light, "light")
     for item, name in _nested(json):
         _decorate(item, name)
     _decorate(json["asset"], "asset")

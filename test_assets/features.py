@@ -116,7 +116,8 @@ def points_and_lines():
     return gltf
 
 
-def _skinned_strip(gltf, material):
+def skinned_strip(gltf, material):
+    """A strip that bends at its middle; answers its upper joint."""
     shape = quad([(-0.1, 0, 0), (0.1, 0, 0), (0.1, 1, 0), (-0.1, 1, 0)], cells=(1, 8))
     primitive = gltf.primitive(shape, material)
     primitive["attributes"]["JOINTS_0"] = gltf.accessor([(0, int(p[1] > 0), 0, 0) for p in shape.positions], UNSIGNED_BYTE)
@@ -136,7 +137,7 @@ def skinned_and_morphed():
     """A skinned strip and a plane with two morph targets, both animated: the rest pose is baked."""
     gltf = GltfBuilder()
     grey = gltf.material("grey", (0.6, 0.6, 0.6), doubleSided=True)
-    joint = _skinned_strip(gltf, grey)
+    joint = skinned_strip(gltf, grey)
     shape = floor(-1, -1, 1, 1, cells=(4, 4))
     primitive = gltf.primitive(shape, grey)
     for direction in ((0, 0.3, 0), (0.2, 0, 0)):

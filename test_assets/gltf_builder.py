@@ -1,5 +1,6 @@
 """Builds a small glTF in memory and writes it as .glb or as .gltf with files beside it."""
 
+import base64
 import json
 import math
 import struct
@@ -75,6 +76,16 @@ class GltfBuilder:
             exact = [[as_float32(x) if component == FLOAT else x for x in row] for row in rows]
             accessor["min"] = [min(column) for column in zip(*exact)]
             accessor["max"] = [max(column) for column in zip(*exact)]
+        return self._add("accessors", accessor)
+
+    @staticmethod
+    def data_uri(kind, data):
+        return f"data:{kind};base64,{base64.b64encode(bytes(data)).decode()}"
+
+    def sparse_accessor(self, count, kind, sparse):
+        """Floats, zero but for those that `sparse` replaces by zeros too."""
+        bounds = [0.0] * {"SCALAR": 1, "VEC3": 3}[kind]
+        accessor = {"componentType": FLOAT, "count": count, "type": kind, "min": bounds, "max": bounds, "sparse": sparse}
         return self._add("accessors", accessor)
 
     def material(self, name, color=(1, 1, 1), emission=None, alpha=1.0, **more):
@@ -170,12 +181,15 @@ class GltfBuilder:
         path.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
 
     def save_gltf(self, path, buffer_uris):
-        """A .gltf and one file for each buffer. The uris are written as given and must be percent-encoded."""
+        """A .gltf and one file for each buffer. The uris are written as given and must be percent-encoded; None is a data URI."""
         from urllib.parse import unquote
 
+        described = self.json.get("buffers", [{}] * len(self.buffers))
         self.json["buffers"] = [
-            {"uri": uri, "byteLength": len(data)} for uri, data in zip(buffer_uris, self.buffers, strict=True)
+            {"uri": uri or self.data_uri("application/octet-stream", data), "byteLength": len(data), **more}
+            for uri, data, more in zip(buffer_uris, self.buffers, described, strict=True)
         ]
         for uri, data in zip(buffer_uris, self.buffers):
-            (path.parent / unquote(uri)).write_bytes(bytes(data))
+            if uri:
+                (path.parent / unquote(uri)).write_bytes(bytes(data))
         path.write_text(json.dumps(self.json, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")

@@ -24,8 +24,11 @@ from features import (  # noqa: E402
     unit_cube,
     uv_seam,
 )
+from instances import instanced  # noqa: E402
+from materials import panes  # noqa: E402
 from rooms import sky_court, two_rooms, white_furnace  # noqa: E402
 from skies import image_based_light, sunny_hdr  # noqa: E402
+from torture import torture  # noqa: E402
 from textured_interior import textured_interior  # noqa: E402
 
 
@@ -41,6 +44,9 @@ def scenes():
         "strip": strip(),
         "points_and_lines": points_and_lines(),
         "skinned_and_morphed": skinned_and_morphed(),
+        "instanced": instanced(),
+        "instanced_as_nodes": instanced(as_nodes=True),
+        "panes": panes(),
         "extras_everywhere": extras_everywhere(),
         "lights_all_kinds": lights_all_kinds(),
         "white_furnace_50": white_furnace(reflectance=0.5, luminance=0.25),
@@ -63,6 +69,7 @@ def main():
     for name, gltf in scenes().items():
         gltf.save_glb(folder / f"{name}.glb")
     multi_buffer(folder)
+    torture(folder)
     (folder / "sunny.hdr").write_bytes(sunny_hdr())
 
 

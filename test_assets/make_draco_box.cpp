@@ -9,11 +9,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "test_assets/write_glb.h"
 
 namespace {
 
@@ -95,27 +96,6 @@ Json describe(std::size_t compressed_size, std::size_t vertex_count) {
   return json;
 }
 
-/// Appends a number as four little-endian bytes.
-void append(std::string& bytes, std::size_t number) {
-  for (int shift = 0; shift < 32; shift += 8) {
-    bytes.push_back(static_cast<char>((number >> shift) & 0xffU));
-  }
-}
-
-std::string to_glb(const Json& json, std::string binary) {
-  std::string text = json.dump();
-  text.resize((text.size() + 3) / 4 * 4, ' ');
-  binary.resize((binary.size() + 3) / 4 * 4, '\0');
-  std::string glb = "glTF";
-  append(glb, 2);
-  append(glb, 12 + 8 + text.size() + 8 + binary.size());
-  append(glb, text.size());
-  glb += "JSON" + text;
-  append(glb, binary.size());
-  glb += std::string("BIN\0", 4) + binary;
-  return glb;
-}
-
 }  // namespace
 
 int main(int argument_count, char** arguments) {
@@ -136,7 +116,6 @@ int main(int argument_count, char** arguments) {
     return 1;
   }
   const Json json = describe(compressed.size(), encoder.num_encoded_points());
-  const std::string glb = to_glb(json, std::string(compressed.data(), compressed.size()));
-  std::ofstream(arguments[1], std::ios::binary).write(glb.data(), static_cast<std::streamsize>(glb.size()));
-  return 0;
+  const std::string binary(compressed.data(), compressed.size());
+  return test_assets::write_glb(arguments[1], json, binary) ? 0 : 1;
 }

@@ -89,6 +89,10 @@ void add_mesh_options(CLI::App& app, Options& options) {
                 "Cut each triangle of the node NAME in four, LEVEL times (0 to 8), whatever --refine and --patch-size "
                 "say; may be repeated"},
                [&options](const std::string& text) { options.subdivide.push_back(parse_subdivide(text)); });
+  app.add_flag_callback(
+      "--simplify", [&options] { options.simplify = true; },
+      "Leave out vertices that neither shape, attributes nor light need; nowhere does the light change by more than "
+      "--max-error of its mean (default: off)");
 }
 
 void add_node_options(CLI::App& app, Options& options) {
@@ -252,6 +256,7 @@ struct Parser {
     app.formatter(std::make_shared<HelpFormatter>());
     app.footer(std::string(kHelpFooter));
     add_files(app, line);
+    add_scene_option(app, line.options);
     add_mesh_options(app, line.options);
     add_node_options(app, line.options);
     add_light_options(app, line.options);

@@ -67,6 +67,18 @@ CLI::Option* add_repeated(CLI::App& app, const OptionText& text, const std::func
       ->allow_extra_args(false);
 }
 
+void add_scene_option(CLI::App& app, Options& options) {
+  app.option_defaults()->group("Input");
+  add(app,
+      {"--scene", "N|auto", "auto",
+       "Which scene of the file, counted from 0; auto is the one that the file names, or the first. The others stay as "
+       "they are"},
+      [&options](const std::string& text) {
+        options.scene.reset();
+        if (text != "auto") options.scene = static_cast<std::uint32_t>(parse_integer(text, 0, 1'000'000'000));
+      });
+}
+
 void add_light_options(CLI::App& app, Options& options) {
   app.option_defaults()->group("Light");
   add(app,

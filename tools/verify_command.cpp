@@ -98,6 +98,7 @@ struct VerifyParser {
     app.formatter(std::make_shared<HelpFormatter>());
     app.footer(std::string(kVerifyFooter));
     add_files(app, command);
+    add_scene_option(app, command.options.bake);
     add_sampling_options(app, command);
     add_light_options(app, command.options.bake);
     add_picture_options(app, command.options);

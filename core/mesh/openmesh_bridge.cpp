@@ -1,46 +1,27 @@
 #include "core/mesh/openmesh_bridge.h"
 
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-#include <OpenMesh/Core/System/omstream.hh>
 #include <algorithm>
 #include <glm/common.hpp>
 #include <tuple>
 #include <vector>
 
+#include "core/mesh/openmesh_join.h"
+
 namespace radiosity {
 namespace {
 
-using Mesh = OpenMesh::TriMesh_ArrayKernelT<>;
+using Mesh = OpenMeshTriangles;
 using OpenMesh::EdgeHandle;
 using OpenMesh::FaceHandle;
 using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
 
-/// Triangles that OpenMesh joins at one vertex at most; more are entered on vertices of their own. It walks around a
-/// vertex for each triangle it adds there: 20 000 in a fan, in any order, took 6 s, and take 0.1 s so.
-constexpr std::uint32_t kMostJoinedAtVertex = 256;
-
-std::uint32_t number_of(const OpenMesh::BaseHandle& handle) { return static_cast<std::uint32_t>(handle.idx()); }
-
 EdgeHandle edge_of(std::uint32_t edge) { return EdgeHandle(static_cast<int>(edge)); }
-
-Mesh::Point point_of(const glm::vec3& position) { return {position.x, position.y, position.z}; }
 
 /// Squared length in double: equal for both directions, and finite for all finite positions.
 double squared_length(const Mesh::Point& a, const Mesh::Point& b) {
   const OpenMesh::Vec3d along = OpenMesh::vector_cast<OpenMesh::Vec3d>(a) - OpenMesh::vector_cast<OpenMesh::Vec3d>(b);
   return along.sqrnorm();
-}
-
-/// OpenMesh reports each triangle it refuses; here that is expected, and core does not print.
-void silence_openmesh() {
-  static const bool silent = [] {
-    omerr().disable();
-    omout().disable();
-    omlog().disable();
-    return true;
-  }();
-  static_cast<void>(silent);
 }
 
 }  // namespace
@@ -57,7 +38,6 @@ struct OpenMeshBridge::Net {
   OpenMesh::FPropHandleT<std::uint32_t> triangle;
   OpenMesh::VPropHandleT<std::uint32_t> position_class;
   std::vector<std::uint32_t> vertices_in_class;
-  std::vector<std::uint32_t> joined_at_vertex;  ///< triangles entered so far
 
   /// Since the round began: edges that run inside a triangle from an old vertex to a midpoint, one per cut triangle.
   std::vector<EdgeHandle> cuts;
@@ -74,30 +54,9 @@ struct OpenMeshBridge::Net {
 
   bool is_midpoint(VertexHandle vertex) const { return number_of(vertex) >= first_midpoint; }
 
-  FaceHandle add_joined(const std::array<VertexHandle, 3>& corners) {
-    const auto [a, b, c] = corners;
-    if (a == b || b == c || c == a) {
-      return FaceHandle();
-    }
-    for (const VertexHandle vertex : corners) {
-      if (joined_at_vertex[number_of(vertex)] >= kMostJoinedAtVertex) {
-        return FaceHandle();
-      }
-    }
-    // Two triangles back to back would be a closed surface to OpenMesh, but one in which edges cannot be turned.
-    const auto back = mesh.find_halfedge(b, a);
-    if (back.is_valid() && !back.is_boundary() && back.next().to() == c) {
-      return FaceHandle();
-    }
-    const FaceHandle face(mesh.add_face(a, b, c).idx());
-    for (const VertexHandle vertex : corners) {
-      joined_at_vertex[number_of(vertex)] += face.is_valid() ? 1U : 0U;
-    }
-    return face;
-  }
-
-  void add_triangle(const std::array<VertexHandle, 3>& joined, std::uint32_t number, const glm::uvec3& vertices) {
-    FaceHandle face = add_joined(joined);
+  void add_triangle(const std::array<VertexHandle, 3>& joined, std::uint32_t number, const glm::uvec3& vertices,
+                    Joiner& joiner) {
+    FaceHandle face = joiner.add(mesh, joined);
     if (!face.is_valid()) {
       std::array<VertexHandle, 3> own;
       for (std::size_t i = 0; i < 3; ++i) {
@@ -169,15 +128,14 @@ OpenMeshBridge::OpenMeshBridge(std::span<const glm::uvec3> triangles, std::span<
   for (std::uint32_t i = 0; i < position_of_class.size(); ++i) {
     net.add_vertex(i, point_of(position_of_class[i]));
   }
-  net.joined_at_vertex.assign(position_of_class.size(), 0);
+  Joiner joiner(position_of_class.size());
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     std::array<VertexHandle, 3> joined;
     for (int c = 0; c < 3; ++c) {
       joined[static_cast<std::size_t>(c)] = VertexHandle(static_cast<int>(class_of_vertex[triangles[i][c]]));
     }
-    net.add_triangle(joined, i, triangles[i]);
+    net.add_triangle(joined, i, triangles[i], joiner);
   }
-  net.joined_at_vertex = {};
 }
 
 OpenMeshBridge::~OpenMeshBridge() = default;

@@ -1,4 +1,4 @@
-// Triangles <-> OpenMesh: the only door to OpenMesh.
+// Triangles <-> OpenMesh, to cut edges.
 //
 // Triangles are joined where they share an edge by position, whatever glTF vertices they name there, and edges are
 // halved by OpenMesh. What a glTF vertex adds to a position is kept per corner, outside OpenMesh's vertices, so a seam

@@ -62,8 +62,10 @@ forbid(WHERE "^tests/core/" LINE "${include}(plugin|tools)/" BECAUSE "the tests 
 forbid(WHERE "^core/" LINE "${include}${gltf_libraries}" BECAUSE "core knows no file formats")
 forbid(WHERE "^core/" LINE "${include}(${printing_headers}|fstream|filesystem)" BECAUSE "core neither prints nor reads files")
 forbid(WHERE "^core/" LINE "${include}(CLI|fmt)/" BECAUSE "core neither prints nor parses options")
-forbid(WHERE "^core/" UNLESS "^core/mesh/openmesh_bridge\\.cpp$" LINE "${include}OpenMesh/"
-       BECAUSE "core/mesh/openmesh_bridge.cpp is the only door to OpenMesh")
+set(openmesh_doors "^core/mesh/(openmesh_bridge|collapse_net)\\.cpp$")
+forbid(WHERE "^core/" UNLESS "(${openmesh_doors}|^core/mesh/openmesh_join\\.h$)" LINE "${include}OpenMesh/"
+       BECAUSE "core/mesh/openmesh_bridge.cpp and core/mesh/collapse_net.cpp are the only doors to OpenMesh")
+forbid(WHERE "." UNLESS "${openmesh_doors}" LINE "${include}core/mesh/openmesh_join\\.h" BECAUSE "it brings OpenMesh along")
 forbid(WHERE "^core/" UNLESS "^core/visibility/" LINE "${include}embree" BECAUSE "rays belong to core/visibility")
 
 # plugin: the only code that knows tinygltf and Draco; it does not print.

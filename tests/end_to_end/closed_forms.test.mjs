@@ -173,3 +173,32 @@ test('a point light amid a room compressed by Draco lights the four corners of e
     }
   }
 })
+
+test('what meshoptimizer compressed shows the light that it shows without compression', () => {
+  const [compressed, plain] = ['meshopt_compressed.glb', 'skinned_and_morphed.glb'].map((scene) => vertices_of(scene))
+  for (const name of ['skinned', 'morphed']) {
+    plain[name].forEach(({ position, color }, k) =>
+      assert_near(compressed[name][k].color[1], color[1], 1e-3, `${name} at ${position}`))
+    assert.ok(plain[name].some(({ color }) => color[1] > 0.1), `${name} is dark`)
+  }
+})
+
+test('instances show the light that nodes in their places show', () => {
+  const [copies, nodes] = ['instanced.glb', 'instanced_as_nodes.glb'].map((scene) => vertices_of(scene))
+  for (const name of ['floor', 'stones[0]', 'stones[1]', 'stones[2]']) {
+    assert.equal(copies[name].length, nodes[name].length)
+    nodes[name].forEach(({ position, color }, k) =>
+      assert_near(copies[name][k].color[1], color[1], 2e-3, `${name} at ${position}`))
+    assert.ok(nodes[name].some(({ color }) => color[1] > 0.05), `${name} is dark`)
+  }
+})
+
+test('glass lets light through by its factor times its colour, and what is invisible takes no part', () => {
+  const { floor, half_pane, ...others } = vertices_of('panes.glb')
+  assert.deepEqual(Object.keys(others), [], 'clear glass and what is invisible are not baked')
+  const mean = (vertices) => vertices.reduce((sum, { color }) => sum + color[1], 0) / vertices.length
+  // Specular-glossiness: the diffuse texture multiplies COLOR_0, which holds what falls on white.
+  assert_near(mean(floor.filter(({ position: [x] }) => x < -0.3)), 0.8, 0.03, 'below clear glass of 80 % grey')
+  assert_near(mean(floor.filter(({ position: [x] }) => x > 0.3)), 0.5, 0.04, 'below glass that lets half through')
+  for (const { color } of half_pane) assert_near(color[1], 1, 0.01, 'the pane itself')
+})

@@ -10,8 +10,8 @@ const folder = temporary_folder()
 const option_sets = [
   { output: 'as_it_is.glb', options: ['--refine', 'none'] },
   { output: 'uniform.gltf', options: ['--refine', 'uniform', '--color-type', 'u16'] },
-  { output: 'adaptive.glb', options: ['--refine', 'adaptive', '--max-error', '0.05'] },
-  { output: 'uniform.embedded.gltf', options: ['--refine', 'none', '--color-type', 'u8', '--sky', '0.2,0.3,0.5'] },
+  { output: 'adaptive.glb', options: ['--refine', 'adaptive', '--max-error', '0.05', '--simplify'] },
+  { output: 'simplified.embedded.gltf', options: ['--refine', 'none', '--simplify', '--color-type', 'u8', '--sky', '0.2,0.3,0.5'] },
 ]
 const scenes = fs.readdirSync(test_asset('')).filter((name) => /\.(glb|gltf)$/.test(name))
 // Under sanitizers the large Cornell boxes and rooms take minutes, and have nothing that the small ones have not.
@@ -41,7 +41,7 @@ for (const scene of scenes.filter((name) => !too_slow.includes(name))) {
   test(`${scene} gets no crack`, () => {
     const baked = (output) => path.join(folder, scene, output)
     const before = t_vertices(test_asset(scene), baked('as_it_is.glb'))
-    for (const output of ['uniform.gltf', 'adaptive.glb']) {
+    for (const output of ['uniform.gltf', 'adaptive.glb', 'simplified.embedded.gltf']) {
       assert.ok(t_vertices(test_asset(scene), baked(output)) <= before, output)
     }
   })

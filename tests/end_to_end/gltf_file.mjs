@@ -117,24 +117,35 @@ export function triangles_of(gltf, primitive) {
   return triangles
 }
 
-// Nodes of the default scene (every root if there is none), parents first.
-export function nodes_of_scene({ json }) {
+// Nodes of the default scene (every root if there is none), parents first; where `enters(node)` is false, neither that
+// node nor those below.
+export function nodes_of_scene({ json }, enters = () => true) {
   const nodes = json.nodes ?? []
   const children = new Set(nodes.flatMap((node) => node.children ?? []))
   const roots = json.scenes?.[json.scene ?? 0]?.nodes ?? [...nodes.keys()].filter((node) => !children.has(node))
   const found = []
-  const walk = (node) => {
+  const left = [...roots].reverse()
+  while (left.length > 0) {
+    const node = left.pop()
+    if (!enters(node)) continue
     found.push(node)
-    for (const child of nodes[node].children ?? []) walk(child)
+    for (const child of [...(nodes[node].children ?? [])].reverse()) left.push(child)
   }
-  for (const root of roots) walk(root)
   return found
 }
 
 // [node, primitive of its mesh, index of the primitive] of the default scene.
 export function primitives_of_scene(gltf) {
-  return nodes_of_scene(gltf).flatMap((node) => {
-    const { mesh } = gltf.json.nodes[node]
-    return mesh === undefined ? [] : gltf.json.meshes[mesh].primitives.map((primitive, k) => [node, primitive, k])
-  })
+  return nodes_of_scene(gltf).flatMap((node) => primitives_of_node(gltf, node))
+}
+
+export function primitives_of_node(gltf, node) {
+  const { mesh } = gltf.json.nodes[node]
+  return mesh === undefined ? [] : gltf.json.meshes[mesh].primitives.map((primitive, k) => [node, primitive, k])
+}
+
+// How many copies of its mesh a node shows by EXT_mesh_gpu_instancing; 0 without it.
+export function copy_count({ json }, node) {
+  const [accessor] = Object.values(json.nodes[node].extensions?.EXT_mesh_gpu_instancing?.attributes ?? {})
+  return accessor === undefined ? 0 : json.accessors[accessor].count
 }

@@ -100,6 +100,19 @@ test('colours scaled to the whole range show the same with their factors', async
   }
 })
 
+test('verify sees no difference between colours scaled or not', () => {
+  const output = path.join(folder, 'verified.glb')
+  const [plain, scaled] = [[], ['--scale-to-factor']].map((options) => {
+    bake(test_asset('cornell_box.glb'), output, ...cheapest, '--refine', 'none', ...options)
+    const { code, stdout, stderr } = run('verify', test_asset('cornell_box.glb'), output, '--points', 100, '--max-samples', 64,
+      '--progress', 'none', '--json', '-')
+    assert.equal(code, 0, stderr)
+    return JSON.parse(stdout)
+  })
+  assert.equal(scaled.clippedShare, plain.clippedShare)
+  assert.ok(Math.abs(scaled.relativeRmse - plain.relativeRmse) < 1e-4)
+})
+
 test('8 bits scaled to the range are nearer to the truth in the dark', async () => {
   const dark = ['--exposure', 0.02]
   const truth = shown((await baked('cornell_box.glb', ...dark)).gltf).flat()

@@ -87,6 +87,44 @@ TEST(CompressGeometry, DracoComesBackAsItWas) {
   }
 }
 
+TEST(CompressGeometry, CustomAttributesJointsAndIntegerColoursComeBackExactly) {
+  GltfBuilder builder;
+  const PrimitiveParts parts = squares(5);
+  const auto heat_at = [](float x, float y) { return glm::vec2(x / 3.0F + 1e-6F * y, 1e20F * (y - x)); };
+  const auto byte_at = [](float x, float y, int k) {
+    return static_cast<std::uint8_t>(40.0F * x + 3.0F * y + static_cast<float>(k));
+  };
+  std::vector<glm::vec2> heat;
+  Bytes bytes;
+  for (const glm::vec3& p : parts.positions) {
+    heat.push_back(heat_at(p.x, p.y));
+    for (int k = 0; k < 4; ++k) bytes.push_back(byte_at(p.x, p.y, k));
+  }
+  Json primitive = builder.primitive(parts);
+  primitive["attributes"]["_HEAT"] = builder.add_accessor(heat);
+  primitive["attributes"]["JOINTS_0"] = builder.add_accessor(bytes, 5121, "VEC4", heat.size());
+  primitive["attributes"]["COLOR_0"] = builder.add_accessor(bytes, 5121, "VEC4", heat.size(), true);
+  builder.add_node(builder.add_mesh(Json::array({primitive})));
+  const Compressed compressed(builder, with_draco());
+  ASSERT_TRUE(compressed.has_draco(0));
+
+  const Document again = read_back(compressed.document, compressed.added);
+  const Json& attributes = again.json["meshes"][0]["primitives"][0]["attributes"];
+  const auto read = [&](const char* name) { return read_accessor(again, attributes[name].get<std::size_t>()); };
+  const std::vector<float> positions = as_floats(read("POSITION")), heats = as_floats(read("_HEAT"));
+  const RawAccessor joints = read("JOINTS_0"), colors = read("COLOR_0");
+  ASSERT_EQ(joints.count, parts.positions.size());
+  EXPECT_TRUE(colors.normalized);
+  for (std::size_t v = 0; v < joints.count; ++v) {
+    const float x = positions[3 * v], y = positions[3 * v + 1];
+    EXPECT_EQ(glm::vec2(heats[2 * v], heats[2 * v + 1]), heat_at(x, y));
+    for (int k = 0; k < 4; ++k) {
+      EXPECT_EQ(joints.bytes[4 * v + static_cast<std::size_t>(k)], byte_at(x, y, k));
+      EXPECT_EQ(colors.bytes[4 * v + static_cast<std::size_t>(k)], byte_at(x, y, k));
+    }
+  }
+}
+
 TEST(CompressGeometry, VerticesThatTwoPrimitivesShareStayTogether) {
   // Two meshes of different bounds that meet along an edge at thirds, which no grid holds.
   const auto strip = [](float begin, float end) {

@@ -191,12 +191,6 @@ TEST(Document, SparseIndicesMustBeInRange) {
   EXPECT_EQ(verdict(read(builder.embedded())), "accessors[0]: sparse index 4 is beyond 4 elements");
 }
 
-TEST(Document, UnsupportedCompressionIsRefusedInASentence) {
-  EXPECT_EQ(verdict_after(
-                [](Json& json) { json["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = Json::object(); }),
-            "bufferViews[0]: EXT_meshopt_compression is not supported yet");
-}
-
 TEST_F(DocumentFiles, BuffersMayLieInTheFolderAndBelow) {
   write("inside/my buffer.bin", square().buffer());
   EXPECT_EQ(verdict(read_with_buffer("my%20buffer.bin")), "fine");

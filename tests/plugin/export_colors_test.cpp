@@ -180,7 +180,7 @@ TEST(ExportColors, WhatDoesNotReceiveHasNoColours) {
 std::vector<float> stored(const VertexColors& colors, float k, ColorType type, Json* accessor = nullptr) {
   Document document;
   BufferBuilder added;
-  const std::size_t index = export_color_accessor(document, added, colors, radiosity::Rgb(k), type);
+  const std::size_t index = export_color_accessor(document, added, colors, {}, radiosity::Rgb(k), type);
   document.buffers.push_back(added.bytes());
   if (accessor != nullptr) *accessor = document.json["accessors"][index];
   return as_floats(read_accessor(document, index));
@@ -248,13 +248,15 @@ TEST(ExportColors, VerticesAtOnePlaceAreDitheredAlike) {
 
 TEST(ExportColors, TheBrightestOfEachBandIsFound) {
   const VertexColors colors = {{{0.5F, 0.0F, 4.0F, 1.0F}, {0.25F, 0.0F, 1.0F, 1.0F}}, {}, {}};
-  EXPECT_EQ(brightest(colors, 0.5F), radiosity::Rgb(0.25F, 1.0F, 1.0F));
+  EXPECT_EQ(brightest(colors, {}, 0.5F), radiosity::Rgb(0.25F, 1.0F, 1.0F));
+  EXPECT_EQ(brightest(colors, std::vector<std::uint32_t>{1}, 0.5F), radiosity::Rgb(0.125F, 1.0F, 0.5F))
+      << "of those that are written";
 }
 
 TEST(ExportColors, TheRadianceIsNotClamped) {
   Document document;
   BufferBuilder added;
-  export_radiance_accessor(document, added, {{{0.5F, 4.0F, 8.0F, 1.0F}}, {}, {}}, 2.0F);
+  export_radiance_accessor(document, added, {{{0.5F, 4.0F, 8.0F, 1.0F}}, {}, {}}, {}, 2.0F);
   document.buffers.push_back(added.bytes());
   EXPECT_EQ(as_floats(read_accessor(document, 0)), (std::vector<float>{1.0F, 8.0F, 16.0F}));
   EXPECT_EQ(document.json["accessors"][0]["type"], "VEC3");

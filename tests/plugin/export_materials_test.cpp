@@ -66,6 +66,18 @@ TEST(ExportMaterials, AnUnlitMaterialShowsNothingButBaseColour) {
   EXPECT_EQ(nlohmann::json(unlit_material(kEverything, imported(0, 0.75F))), nlohmann::json(expected));
 }
 
+TEST(ExportMaterials, TheDiffuseTextureOfSpecularGlossinessBecomesTheBaseColorTexture) {
+  Json source = Json::parse(R"({
+    "pbrMetallicRoughness": {"baseColorTexture": {"index": 1}},
+    "extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseTexture": {"index": 2, "texCoord": 1}}}
+  })");
+  const Json unlit = unlit_material(source, imported(0));
+  EXPECT_EQ(unlit["pbrMetallicRoughness"]["baseColorTexture"], Json::parse(R"({"index": 2, "texCoord": 1})"));
+  EXPECT_EQ(unlit["extensions"], Json::parse(R"({"KHR_materials_unlit": {}})"));
+  source["extensions"]["KHR_materials_pbrSpecularGlossiness"].erase("diffuseTexture");
+  EXPECT_FALSE(unlit_material(source, imported(0))["pbrMetallicRoughness"].contains("baseColorTexture"));
+}
+
 TEST(ExportMaterials, AFactorOfOneIsLeftOut) {
   EXPECT_FALSE(unlit_material(kEverything, imported(0))["pbrMetallicRoughness"].contains("baseColorFactor"));
 }
@@ -107,11 +119,20 @@ TEST(ExportMaterials, AFactorThatColoursWereDividedByComesBack) {
 }
 
 TEST(ExportMaterials, AMaterialThatStaysLitIsOnlyDimmed) {
-  ImportedMaterial material = imported(0);
-  material.base_color_factor = {0.5F, 1.0F, 0.25F, 0.5F};
   Json expected = kEverything;
-  expected["pbrMetallicRoughness"]["baseColorFactor"] = {0.25, 1.0, 0.0625, 0.5};
-  EXPECT_EQ(dimmed_material(kEverything, material, {0.5F, 1.0F, 0.25F}), expected);
+  expected["pbrMetallicRoughness"]["baseColorFactor"] = {0.25, 0.25, 0.03125, 0.75};
+  EXPECT_EQ(dimmed_material(kEverything, {0.5F, 1.0F, 0.25F}), expected);
+}
+
+TEST(ExportMaterials, BothColoursOfSpecularGlossinessAreDimmed) {
+  const Json source = Json::parse(R"({
+    "extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [0.5, 0.5, 1, 0.5], "glossinessFactor": 0}}
+  })");
+  const Json dimmed = dimmed_material(source, {0.5F, 1.0F, 0.25F});
+  EXPECT_EQ(dimmed["pbrMetallicRoughness"]["baseColorFactor"], Json({0.5, 1.0, 0.25, 1.0}));
+  const Json& glossy = dimmed["extensions"]["KHR_materials_pbrSpecularGlossiness"];
+  EXPECT_EQ(glossy["diffuseFactor"], Json({0.25, 0.5, 0.25, 0.5}));
+  EXPECT_EQ(glossy["glossinessFactor"], 0);
 }
 
 TEST(ExportMaterials, EveryKindOfReferenceIsFound) {

@@ -32,9 +32,15 @@ Exported exported(const GltfBuilder& builder, int levels = 0, const Options& opt
   HandBake hand = bake_by_hand(builder, levels, kWhiteLight, options);
   Exported result;
   result.before = hand.document;
-  result.report = export_scene(hand.document, hand.added, hand.scene, hand.bake, options, result.warnings);
+  result.report = export_scene(hand.document, hand.added, hand.scene, hand.bake, options, result.warnings, {});
   result.after = read_back(hand.document, hand.added);
   return result;
+}
+
+std::vector<std::string> codes_of(const std::vector<Warning>& warnings) {
+  std::vector<std::string> codes;
+  for (const Warning& warning : warnings) codes.push_back(warning.code);
+  return codes;
 }
 
 bool is_unlit(const Json& material) {
@@ -307,6 +313,15 @@ TEST(ExportScene, MaterialsThatAreKeptStayAsTheyWere) {
   EXPECT_FALSE(scene.after.json.contains("extensionsUsed"));
   EXPECT_EQ(scene.after.json["asset"]["extras"]["radiosity"]["target"], "keep");
   for (const float value : scene.colors(0)) EXPECT_NEAR(value, 1.0F, 1e-6F) << "light without colour and emission";
+}
+
+TEST(ExportScene, WhatIsBakedIsNotSeenThroughAnyMore) {
+  GltfBuilder builder = two_dark_squares();
+  builder.json["materials"][0]["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", 0.5}};
+  EXPECT_THAT(codes_of(exported(builder).warnings), testing::ElementsAre("transmission-opaque"));
+  Options keep;
+  keep.target = Target::kKeep;
+  EXPECT_THAT(codes_of(exported(builder, 0, keep).warnings), testing::IsEmpty()) << "unless its material stays";
 }
 
 TEST(ExportScene, KeptMaterialsCanBeScaledToo) {

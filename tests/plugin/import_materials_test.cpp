@@ -18,10 +18,10 @@ Imported import_last(const GltfBuilder& builder, Metals metals = Metals::kDiffus
   const Document document = builder.document();
   const auto model = typed_view(document);
   EXPECT_TRUE(model) << model.error().text();
-  TextureLibrary textures(document);
   Imported result;
+  TextureLibrary textures(document, result.warnings);
   const auto last = static_cast<std::uint32_t>(document.json["materials"].size() - 1);
-  const auto material = import_material(document, **model, last, metals, textures, result.warnings);
+  const auto material = import_material(document, **model, last, metals, textures);
   EXPECT_TRUE(material) << material.error().text();
   if (material) result.material = *material;
   return result;
@@ -113,11 +113,83 @@ TEST(Materials, MetalsAreDiffuseUnlessAskedToBeBlack) {
   EXPECT_NEAR(black.diffuse_share(black.metallic_roughness.at({0, 0}).z), 1.0F - 0.5F * 128.0F / 255.0F, 1e-5F);
 }
 
-TEST(Materials, SpecularGlossinessIsAWarning) {
-  const Imported imported = import_from({{"extensions", {{"KHR_materials_pbrSpecularGlossiness", Json::object()}}}});
-  ASSERT_EQ(imported.warnings.size(), 1U);
-  EXPECT_EQ(imported.warnings[0].code, "specular-glossiness");
-  EXPECT_EQ(imported.warnings[0].place, "materials[0]");
+// Specular-glossiness.
+
+Json glossy(const Json& members) { return {{"extensions", {{"KHR_materials_pbrSpecularGlossiness", members}}}}; }
+
+TEST(Materials, TheDiffuseColorOfSpecularGlossinessIsTheBaseColor) {
+  Json json = glossy({{"diffuseFactor", {0.1, 0.2, 0.3, 0.4}}, {"specularFactor", {0.04, 0.04, 0.04}}});
+  json["pbrMetallicRoughness"]["baseColorFactor"] = {1, 0, 0, 1};  // for those who do not know the extension
+  const Imported imported = import_from(json);
+  const glm::vec4 color = imported.material.base_color_factor;
+  EXPECT_NEAR(color.x, 0.1F, 1e-6F);
+  EXPECT_NEAR(color.y, 0.2F, 1e-6F);
+  EXPECT_NEAR(color.z, 0.3F, 1e-6F);
+  EXPECT_EQ(color.w, 0.4F);
+  EXPECT_EQ(imported.material.metallic, 0.0F);
+  EXPECT_TRUE(imported.warnings.empty());
+}
+
+TEST(Materials, AMetalInSpecularGlossinessReflectsItsSpecularColor) {
+  const Json gold = glossy({{"diffuseFactor", {0, 0, 0, 1}}, {"specularFactor", {1.0, 0.76, 0.33}}});
+  const glm::vec4 color = import_from(gold).material.base_color_factor;
+  EXPECT_NEAR(color.x, 1.0F, 1e-5F);
+  EXPECT_NEAR(color.y, 0.75F, 1e-5F);
+  GltfBuilder builder;
+  builder.add_material(gold);
+  EXPECT_EQ(import_last(builder, Metals::kBlack).material.base_color_factor, glm::vec4(0, 0, 0, 1));
+}
+
+TEST(Materials, TheDiffuseTextureIsTheBaseColorTexture) {
+  GltfBuilder builder;
+  const std::size_t texture = builder.add_texture(1, 1, {255, 0, 0, 255});
+  builder.add_material(glossy({{"diffuseTexture", {{"index", texture}}}, {"diffuseFactor", {0.5, 1, 1, 1}}}));
+  const ImportedMaterial material = import_last(builder).material;
+  EXPECT_EQ(material.base_color_factor, glm::vec4(0.5F, 1, 1, 1));
+  EXPECT_EQ(material.base_color.at({0, 0}), glm::vec4(1, 0, 0, 1));
+}
+
+// Transmission.
+
+TEST(Materials, WhatIsTransmittedIsNotReflected) {
+  const ImportedMaterial material =
+      import_from({{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 0.75}}}}}}).material;
+  EXPECT_TRUE(material.receives());
+  const auto white = material.transmission.shares(glm::vec3(1.0F), 1.0F, 1.0F);
+  EXPECT_NEAR(white.passes, 0.75F, 1e-6F);
+  EXPECT_NEAR(white.reflects, 0.25F, 1e-6F);
+  const auto grey = material.transmission.shares(glm::vec3(0.5F), 1.0F, 1.0F);
+  EXPECT_NEAR(grey.passes, 0.375F, 1e-6F) << "dyed by the base colour";
+  const auto masked = material.transmission.shares(glm::vec3(1.0F), 0.0F, 1.0F);
+  EXPECT_EQ(masked.passes, 0.0F);
+  EXPECT_EQ(masked.reflects, 1.0F);
+}
+
+TEST(Materials, AVolumeTakesItsShareHalfAtEachSurface) {
+  const Json volume = {{"thicknessFactor", 2.0}, {"attenuationDistance", 1.0}, {"attenuationColor", {0.5, 0.5, 0.5}}};
+  const ImportedMaterial material =
+      import_from({{"extensions",
+                    {{"KHR_materials_transmission", {{"transmissionFactor", 1.0}}}, {"KHR_materials_volume", volume}}}})
+          .material;
+  EXPECT_NEAR(material.transmission.shares(glm::vec3(1.0F), 1.0F, 1.0F).passes, 0.5F, 1e-5F);
+}
+
+TEST(Materials, DiffuseTransmissionHasAColorOfItsOwn) {
+  const Json leaf = {{"diffuseTransmissionFactor", 0.5}, {"diffuseTransmissionColorFactor", {0.2, 0.2, 0.2}}};
+  const ImportedMaterial material =
+      import_from({{"extensions", {{"KHR_materials_diffuse_transmission", leaf}}}}).material;
+  const auto shares = material.transmission.shares(glm::vec3(1.0F), 1.0F, 1.0F);
+  EXPECT_NEAR(shares.passes, 0.1F, 1e-6F);
+  EXPECT_NEAR(shares.reflects, 0.5F, 1e-6F);
+}
+
+TEST(Materials, WhatIsClearEverywhereIsNotBaked) {
+  const auto clear = [](const Json& extension) {
+    return !import_from({{"extensions", {{"KHR_materials_transmission", extension}}}}).material.receives();
+  };
+  EXPECT_TRUE(clear({{"transmissionFactor", 1.0}}));
+  EXPECT_FALSE(clear({{"transmissionFactor", 0.9}}));
+  EXPECT_FALSE(clear({{"transmissionFactor", 0.0}}));
 }
 
 }  // namespace

@@ -343,7 +343,7 @@ TEST(ImportScene, MetalsAreDiffuseOrBlack) {
 TEST(ImportScene, UnlitMaterialsOnlyBlock) {
   GltfBuilder builder =
       square_with({{"emissiveFactor", {1, 1, 1}}, {"extensions", {{"KHR_materials_unlit", Json::object()}}}});
-  EXPECT_EQ(verdict(builder), "nothing to bake: every material of the scene is unlit");
+  EXPECT_EQ(verdict(builder), "nothing to bake: every material of the scene is unlit or clear");
   builder.add_node(builder.add_mesh(unit_square()));
   const Imported result = import(builder);
   EXPECT_FALSE(result.imported.instances[0].receives);
@@ -421,13 +421,103 @@ TEST(ImportScene, SenselessLevelsAreIgnoredWithAWarning) {
   EXPECT_EQ(result.imported.level_of_triangle[0], radiosity::kLevelFromPatchSize);
 }
 
+// Scenes and visibility.
+
+TEST(ImportScene, AnySceneOfTheFileCanBeChosen) {
+  GltfBuilder builder;
+  const std::size_t mesh = builder.add_mesh(unit_square());
+  builder.add_node(mesh, {{"translation", {1, 0, 0}}});
+  builder.add_node(mesh, {{"translation", {2, 0, 0}}});
+  builder.json["scenes"] = Json::parse(R"([{"nodes": [0]}, {"nodes": [1]}])");
+  const auto first_x = [&](std::optional<std::uint32_t> scene) {
+    Options options;
+    options.scene = scene;
+    return import(builder, options).scene().positions[0].x;
+  };
+  EXPECT_EQ(first_x(std::nullopt), 1.0F);
+  EXPECT_EQ(first_x(0), 1.0F);
+  EXPECT_EQ(first_x(1), 2.0F);
+  builder.json["scene"] = 1;
+  EXPECT_EQ(first_x(std::nullopt), 2.0F);
+  builder.json.erase("scene");
+  EXPECT_EQ(first_x(std::nullopt), 1.0F);
+  Options options;
+  options.scene = 2;
+  EXPECT_EQ(verdict(builder, options), "--scene: there is no scene 2: the file has 2, counted from 0");
+}
+
+TEST(ImportScene, WhatIsInvisibleTakesNoPart) {
+  GltfBuilder builder;
+  const std::size_t mesh = builder.add_mesh(unit_square());
+  const Json hidden = Json::parse(R"({"KHR_node_visibility": {"visible": false}})");
+  const Json shown = Json::parse(R"({"KHR_node_visibility": {"visible": true}})");
+  builder.add_node(mesh, {{"extensions", shown}});
+  const std::size_t parent = builder.add_node(mesh, {{"extensions", hidden}});
+  builder.add_node(mesh, {{"extensions", shown}}, parent);  // an ancestor hides it
+  Json lamp = hidden;
+  lamp["KHR_lights_punctual"]["light"] = 0;
+  builder.add_light({{"type", "point"}}, {{"extensions", lamp}});
+  const Imported result = import(builder);
+  ASSERT_EQ(result.imported.instances.size(), 1U);
+  EXPECT_EQ(result.imported.instances[0].node, 0U);
+  EXPECT_TRUE(result.scene().lights.empty());
+}
+
 // Refusals.
 
 TEST(ImportScene, WhatCannotBeBakedIsSaid) {
   EXPECT_EQ(verdict(GltfBuilder()), "nothing to bake: the scene has no triangles");
+}
+
+/// A square of which every extension has something to say.
+GltfBuilder square_with_every_extension() {
   GltfBuilder builder;
-  builder.add_node(builder.add_mesh(unit_square()), {{"extensions", {{"EXT_mesh_gpu_instancing", Json::object()}}}});
-  EXPECT_EQ(verdict(builder), "nodes[0]: EXT_mesh_gpu_instancing is not supported yet");
+  const std::size_t texture = builder.add_texture(1, 1, {255, 200, 100, 128});
+  builder.json["textures"][0]["extensions"]["EXT_texture_webp"]["source"] = 0;
+  Json info = {{"index", texture}};
+  info["extensions"]["KHR_texture_transform"] = {
+      {"offset", {1, 2}}, {"scale", {3, 4}}, {"rotation", 1}, {"texCoord", 0}};
+  const Json volume = {{"thicknessFactor", 1.0}, {"attenuationDistance", 1.0}, {"attenuationColor", {1.0, 0.5, 0.2}}};
+  Json material = {{"emissiveFactor", {1.0, 1.0, 1.0}}, {"emissiveTexture", info}};
+  material["extensions"] = {
+      {"KHR_materials_emissive_strength", {{"emissiveStrength", 2.0}}},
+      {"KHR_materials_pbrSpecularGlossiness",
+       {{"diffuseFactor", {1, 1, 1, 1}}, {"specularFactor", {1, 1, 1}}, {"diffuseTexture", info}}},
+      {"KHR_materials_transmission", {{"transmissionFactor", 0.5}, {"transmissionTexture", info}}},
+      {"KHR_materials_volume", volume},
+      {"KHR_materials_diffuse_transmission",
+       {{"diffuseTransmissionFactor", 0.5},
+        {"diffuseTransmissionColorFactor", {1, 1, 1}},
+        {"diffuseTransmissionTexture", info}}}};
+  PrimitiveParts parts = unit_square();
+  parts.material = builder.add_material(material);
+  Json node;
+  node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] =
+      builder.add_accessor(std::vector<glm::vec3>{{1, 0, 0}, {2, 0, 0}});
+  node["extensions"]["KHR_node_visibility"]["visible"] = true;
+  builder.add_node(builder.add_mesh(parts), node);
+  builder.json["animations"] = Json::parse(R"([{"channels": [{"target": {"node": 0, "path": "weights"}}]}])");
+  builder.add_light({{"type", "point"}});
+  return builder;
+}
+
+TEST(ImportScene, ReplacingAnyValueOfAnExtensionNeverCrashes) {
+  const GltfBuilder sound = square_with_every_extension();
+  EXPECT_EQ(verdict(sound), "fine");
+  std::size_t fine = 0, refused = 0;
+  const Json flat = sound.json.flatten();
+  for (const auto& [pointer, value] : flat.items()) {
+    for (const Json& other :
+         {Json(nullptr), Json(-1), Json(1e300), Json("x"), Json::array(), Json::object(), Json(3)}) {
+      for (auto at = Json::json_pointer(pointer); !at.empty(); at.pop_back()) {
+        GltfBuilder changed = sound;
+        changed.json[at] = other;
+        EXPECT_NO_THROW(++(verdict(changed) == "fine" ? fine : refused)) << at << " " << other;
+      }
+    }
+  }
+  EXPECT_GT(fine, 0U);
+  EXPECT_GT(refused, 0U);
 }
 
 }  // namespace

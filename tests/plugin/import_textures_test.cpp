@@ -25,7 +25,8 @@ class TextureFixture {
     document_ = builder_.document();
   }
   TextureSlot slot(TexelKind kind = TexelKind::kData, const Json& info = {{"index", 0}}) {
-    auto slot = TextureLibrary(document_).slot(info, kind);
+    std::vector<Warning> warnings;
+    auto slot = TextureLibrary(document_, warnings).slot(info, kind);
     EXPECT_TRUE(slot) << slot.error().text();
     return *slot;
   }
@@ -140,7 +141,8 @@ TEST(Textures, WrapModesDecideWhatLiesOutside) {
     builder.json["samplers"] = Json::array({Json{{"wrapS", wrap}}});
     builder.json["textures"][0]["sampler"] = 0;
     const Document document = builder.document();
-    return TextureLibrary(document).slot({{"index", 0}}, TexelKind::kData)->at({u, 0.5F}).x;
+    std::vector<Warning> warnings;
+    return TextureLibrary(document, warnings).slot({{"index", 0}}, TexelKind::kData)->at({u, 0.5F}).x;
   };
   EXPECT_FLOAT_EQ(value(10497, 1.25F), 0.0F);
   EXPECT_FLOAT_EQ(value(10497, -0.25F), 1.0F);
@@ -206,20 +208,59 @@ TEST(Textures, WhatCannotBeReadIsNamed) {
   GltfBuilder builder;
   const std::size_t view = builder.add_buffer_view(std::vector<std::uint8_t>{1, 2, 3, 4});
   builder.json["images"] = Json::array({Json{{"bufferView", view}}});
-  builder.json["textures"] =
-      Json::array({Json{{"source", 0}}, Json{{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}}});
+  builder.json["textures"] = Json::array({Json{{"source", 0}}, Json::object()});
   const Document document = builder.document();
-  TextureLibrary library(document);
+  std::vector<Warning> warnings;
+  TextureLibrary library(document, warnings);
   EXPECT_EQ(library.slot({{"index", 0}}, TexelKind::kColor).error().text(), "images[0]: is neither PNG, JPEG nor WebP");
-  EXPECT_EQ(library.slot({{"index", 1}}, TexelKind::kColor).error().text(),
-            "textures[1]: KHR_texture_basisu is not supported and there is no plain image");
+  EXPECT_EQ(library.slot({{"index", 1}}, TexelKind::kColor).error().text(), "textures[1]: has no image");
+}
+
+/// A texture with a KTX2 image, and a plain one of one red texel if `has_plain`.
+GltfBuilder ktx2_texture(bool has_plain) {
+  GltfBuilder builder;
+  builder.add_texture(1, 1, {255, 0, 0, 255});
+  const std::vector<std::uint8_t> ktx2 = {0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb};
+  const std::size_t view = builder.add_buffer_view(ktx2);
+  builder.json["images"].push_back({{"bufferView", view}, {"mimeType", "image/ktx2"}});
+  Json& texture = builder.json["textures"][0];
+  texture["extensions"]["KHR_texture_basisu"]["source"] = 1;
+  if (!has_plain) texture.erase("source");
+  return builder;
+}
+
+TEST(Textures, APlainImageStandsInForOneThatCannotBeDecoded) {
+  const Document document = ktx2_texture(true).document();
+  std::vector<Warning> warnings;
+  TextureLibrary library(document, warnings);
+  for (int use = 0; use < 2; ++use) {
+    const auto slot = library.slot({{"index", 0}}, TexelKind::kColor);
+    ASSERT_TRUE(slot) << slot.error().text();
+    EXPECT_EQ(slot->at({0, 0}), glm::vec4(1, 0, 0, 1));
+  }
+  ASSERT_EQ(warnings.size(), 1U) << "once for each texture";
+  EXPECT_EQ(warnings[0].code, "texture-fallback");
+  EXPECT_EQ(warnings[0].place, "textures[0]");
+}
+
+TEST(Textures, WithoutAPlainImageATextureThatCannotBeDecodedIsWhite) {
+  const Document document = ktx2_texture(false).document();
+  std::vector<Warning> warnings;
+  TextureLibrary library(document, warnings);
+  const auto slot = library.slot({{"index", 0}}, TexelKind::kColor);
+  ASSERT_TRUE(slot) << slot.error().text();
+  EXPECT_EQ(slot->at({0, 0}), glm::vec4(1.0F));
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].code, "texture-unread");
+  EXPECT_EQ(warnings[0].place, "textures[0]");
 }
 
 TEST(Textures, AnImageIsDecodedOnceForEachKind) {
   GltfBuilder builder;
   builder.add_texture(1, 1, {1, 2, 3, 4});
   const Document document = builder.document();
-  TextureLibrary library(document);
+  std::vector<Warning> warnings;
+  TextureLibrary library(document, warnings);
   const auto first = library.slot({{"index", 0}}, TexelKind::kColor),
              second = library.slot({{"index", 0}}, TexelKind::kColor);
   EXPECT_EQ(first->image, second->image);

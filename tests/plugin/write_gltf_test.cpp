@@ -87,6 +87,23 @@ TEST(WriteGltf, SeveralBuffersBecomeOne) {
   EXPECT_EQ(read_accessor(again, sample.accessor).bytes, (Bytes{7, 8, 9}));
 }
 
+TEST(WriteGltf, NamesAndExtrasOfAllBuffersAreKept) {
+  Sample sample;
+  Document& document = sample.document;
+  document.json["buffers"][0]["extras"] = {{"theirs", 1}};
+  const std::size_t ours = document.json["buffers"].size();
+  document.json["buffers"].push_back({{"byteLength", 1}, {"name", "second"}, {"extras", {2, nullptr}}});
+  document.buffers.push_back({1});
+  document.json["buffers"].push_back(Json::object());
+  document.json["buffers"][ours + 1]["byteLength"] = 1;
+  document.buffers.push_back({1});
+  document.json["bufferViews"][document.json["accessors"][sample.accessor]["bufferView"].get<std::size_t>()]["buffer"] =
+      ours + 2;
+  const Document again = read_back(document, sample.added);
+  EXPECT_EQ(again.json["buffers"][0]["extras"],
+            Json::parse(R"({"theirs": 1, "radiosity": {"merged": [{"name": "second", "extras": [2, null]}]}})"));
+}
+
 TEST(WriteGltf, ADocumentWithoutDataHasNoBuffer) {
   Document document;
   document.json = {{"asset", {{"version", "2.0"}}}};

@@ -68,6 +68,7 @@ TEST(CommandLine, NeedsOnlyTwoFiles) {
 TEST(CommandLine, DefaultsAreThoseOfTheLibrary) {
   const Options parsed = parse_bake({}).options;
   const Options library;
+  EXPECT_EQ(parsed.scene, library.scene);
   EXPECT_EQ(parsed.refine, library.refine);
   EXPECT_EQ(parsed.patch_size, library.patch_size);
   EXPECT_EQ(parsed.subdivide, library.subdivide);
@@ -86,6 +87,11 @@ TEST(CommandLine, DefaultsAreThoseOfTheLibrary) {
   EXPECT_EQ(parsed.threads, library.threads);
   EXPECT_EQ(parsed.exposure, library.exposure);
   EXPECT_EQ(parsed.color_type, library.color_type);
+}
+
+TEST(CommandLine, ReadsWhichSceneIsMeant) {
+  EXPECT_EQ(parse_bake({"--scene", "3"}).options.scene, 3U);
+  EXPECT_EQ(parse_bake({"--scene", "3", "--scene", "auto"}).options.scene, std::nullopt);
 }
 
 TEST(CommandLine, ReadsTheOptionsOfTheMesh) {
@@ -198,6 +204,8 @@ TEST(CommandLine, TheLastOfRepeatedOptionsCounts) {
 TEST(CommandLine, EveryMistakeNamesTheOption) {
   const std::vector<Arguments> mistakes = {
       {"--refine", "maybe"},
+      {"--scene", "-1"},
+      {"--scene", "first"},
       {"--patch-size", "-1"},
       {"--patch-size", "nan"},
       {"--subdivide", "A"},
@@ -254,7 +262,8 @@ TEST(CommandLine, WantsTwoFilesAndNoMore) {
 TEST(CommandLine, TakesOptionsFromAFile) {
   const ConfigFile config(
       "patch-size = 0.5\nsky = [1, 2.5, 3]\nsubdivide = [\"A=1\", \"B=2\"]\nno-default-sky = true\nhemicube = 8\n"
-      "max-patches = \"auto\"\nquality = \"high\"\ndraco = 12\nselect = [\"a*\", \"b\"]\nstrip-lights = true\n");
+      "max-patches = \"auto\"\nquality = \"high\"\ndraco = 12\nselect = [\"a*\", \"b\"]\nstrip-lights = true\n"
+      "scene = 2\n");
   const Options options = parse_bake({"--config", config.path(), "--patch-size", "0.25"}).options;
   EXPECT_EQ(options.patch_size, 0.25);
   EXPECT_EQ(options.sky, (std::array{1.0, 2.5, 3.0}));
@@ -265,6 +274,7 @@ TEST(CommandLine, TakesOptionsFromAFile) {
   EXPECT_EQ(options.draco_bits, 12);
   EXPECT_EQ(options.select, (std::vector<std::string>{"a*", "b"}));
   EXPECT_TRUE(options.strip_lights);
+  EXPECT_EQ(options.scene, 2U);
 }
 
 TEST(CommandLine, RefusesAFileWithMistakes) {

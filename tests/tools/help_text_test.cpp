@@ -55,7 +55,8 @@ std::vector<Command> commands() { return {{help_text(), "command-line.md"}, {ver
 
 TEST(HelpText, DescribesEveryOption) {
   const std::set<std::string> names = matches(help_text(), "\n  (?:-h,)?(--[a-z0-9-]+)");
-  const std::set<std::string> expected = {"--refine",
+  const std::set<std::string> expected = {"--scene",
+                                          "--refine",
                                           "--patch-size",
                                           "--subdivide",
                                           "--sky",
@@ -83,6 +84,7 @@ TEST(HelpText, DescribesEveryOption) {
                                           "--sky-rotation",
                                           "--max-error",
                                           "--max-vertices",
+                                          "--simplify",
                                           "--error-space",
                                           "--draco",
                                           "--meshopt",
@@ -101,12 +103,14 @@ TEST(HelpText, DescribesEveryOption) {
 TEST(HelpText, StatesTheDefaultsOfTheLibrary) {
   const Options library;
   const std::vector<std::pair<std::string, std::string>> expected = {
+      {"--scene", "auto"},
       {"--refine", "adaptive"},
       {"--max-error", fmt::format("{}", library.max_error)},
       {"--max-vertices", "auto"},
       {"--error-space", "display"},
       {"--patch-size", "auto"},
       {"--subdivide", "none"},
+      {"--simplify", "off"},
       {"--sky", "none"},
       {"--sky-rotation", fmt::format("{}", library.sky_rotation_degrees)},
       {"--sun", "none"},

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>                                 // forbidden
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>  // forbidden
+#include "core/mesh/openmesh_join.h"  // forbidden
 #include <cstdio>                                      // forbidden
 #include <fstream>                                     // forbidden
 #include <iostream>                                    // forbidden
