@@ -91,6 +91,7 @@ radiosity::BakeOptions bake_options(const Options& options, const ImportedScene&
   result.row_cache_bytes = static_cast<std::size_t>(memory / 2);
   result.subdivide.max_elements = std::min<std::size_t>(result.subdivide.max_elements, memory / 4 / kBytesPerElement);
   result.parts = parts_of(options.bake);
+  result.show_reached_side = options.two_sided == TwoSided::kLit;
   result.residual = static_cast<float>(options.residual);
   result.max_patches = options.max_patches;
   result.threads = options.threads;

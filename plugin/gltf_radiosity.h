@@ -32,6 +32,7 @@ enum class LightUnits { kAuto, kSi, kBlender };
 enum class ColorType { kFloat, kU16, kU8 };
 enum class BakedLight { kBoth, kDirect, kIndirect };
 enum class Target { kUnlit, kKeep };
+enum class TwoSided { kFront, kLit };
 enum class Engine { kAny, kThree, kBabylon, kGodot, kUnity, kUnreal, kBlender };
 
 /// The sun: a directional light at infinity.
@@ -84,6 +85,8 @@ struct Options {
   /// Colours of a primitive are scaled up to end at 1, its material's base colour factor down by as much. None: the
   /// engine's; false for any.
   std::optional<bool> scale_to_factor;
+  /// What doubleSided surfaces show whose front no light can reach and whose back it can.
+  TwoSided two_sided = TwoSided::kFront;
   Target target = Target::kUnlit;  ///< kKeep: materials stay lit, and COLOR_0 is light without their base colour
   std::string radiance_attribute;  ///< name of a custom attribute for the light of COLOR_0, not clamped; empty: none
   bool strip_lights = false;       ///< leaves punctual and image based lights out of the output

@@ -35,6 +35,7 @@ constexpr Choices<ColorType, 3> kColorType{
 
 constexpr Choices<BakedLight, 3> kBakedLight{
     {{"direct", BakedLight::kDirect}, {"indirect", BakedLight::kIndirect}, {"both", BakedLight::kBoth}}};
+constexpr Choices<TwoSided, 2> kTwoSided{{{"front", TwoSided::kFront}, {"lit", TwoSided::kLit}}};
 constexpr Choices<Target, 2> kTarget{{{"unlit", Target::kUnlit}, {"keep", Target::kKeep}}};
 constexpr Choices<Engine, 7> kEngine{{{"three", Engine::kThree},
                                       {"babylon", Engine::kBabylon},
@@ -184,6 +185,10 @@ void add_style(CLI::App& app, Options& options) {
       "Materials show COLOR_0 and nothing else (unlit), or stay as they are, lit by the engine (keep): COLOR_0 is "
       "then light without their colour",
       options.target, kTarget);
+  add_choice(app, "--two-sided",
+             "What surfaces show whose front no light can reach and whose back it can, if they are visible from both "
+             "sides: their front, which is black (front), or their back (lit)",
+             options.two_sided, kTwoSided);
   add(app,
       {"--radiance-attribute", "NAME", "none",
        "Write the light of COLOR_0 a second time, as floats without a limit, into the custom attribute _NAME"},

@@ -158,13 +158,15 @@ TEST(CommandLine, DracoTakesANumberOrNone) {
 }
 
 TEST(CommandLine, ReadsHowTheLightIsWritten) {
-  const Options options = parse_bake({"--engine", "godot", "--no-scale-to-factor", "--target", "keep", "--strip-lights",
-                                      "--radiance-attribute", "LIGHT", "--meshopt", "--bake", "indirect"})
-                              .options;
+  const Options options =
+      parse_bake({"--engine", "godot", "--no-scale-to-factor", "--target", "keep", "--two-sided", "lit",
+                  "--strip-lights", "--radiance-attribute", "LIGHT", "--meshopt", "--bake", "indirect"})
+          .options;
   EXPECT_EQ(options.engine, Engine::kGodot);
   EXPECT_EQ(options.scale_to_factor, false);
   EXPECT_EQ(parse_bake({"--scale-to-factor"}).options.scale_to_factor, true);
   EXPECT_EQ(options.target, Target::kKeep);
+  EXPECT_EQ(options.two_sided, TwoSided::kLit);
   EXPECT_TRUE(options.strip_lights && options.meshopt);
   EXPECT_EQ(options.radiance_attribute, "LIGHT");
   EXPECT_EQ(options.bake, BakedLight::kIndirect);
@@ -233,6 +235,7 @@ TEST(CommandLine, EveryMistakeNamesTheOption) {
       {"--bake", "all"},
       {"--engine", "quake"},
       {"--target", "lit"},
+      {"--two-sided", "both"},
       {"--radiance-attribute", "a b"},
       {"--radiance-attribute", ""},
       {"--quality", "ultra"},
