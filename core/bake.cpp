@@ -104,7 +104,8 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
                           sky,
                           sent,
                           surface_offset(scene),
-                          options.parts != LightParts::kIndirect};
+                          options.parts != LightParts::kIndirect,
+                          options.show_reached_side};
   Reconstruction light = reconstruct(display, gatherer, options.fit, options.adapt, progress);
 
   const EnergyBalance balance = energy_balance(problem, solution, rows);

@@ -31,6 +31,7 @@ struct BakeOptions {
   Visibility visibility = Visibility::kAuto;
   Solver solver = Solver::kGathering;
   Fit fit = Fit::kLeastSquares;
+  bool show_reached_side = false;        ///< of surfaces that are lit on both sides and whose front no light reaches
   LightParts parts = LightParts::kBoth;  ///< of the result; the parts add up to both, but for the noise of each fit
   float residual = 0.001F;               ///< stop when this share of the emitted flux is still unshot, (0,1)
   int max_patches = 0;  ///< patches that send light; more see finer indirect light; 0: see automatic_patches()

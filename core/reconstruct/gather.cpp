@@ -57,6 +57,12 @@ Gathered Gatherer::at(const SurfacePoint& point, std::uint32_t index) const {
   return gathered;
 }
 
+bool Gatherer::only_back_is_reached(std::uint32_t triangle, Barycentrics place) const {
+  if (patches.unreached == kNothing) return false;
+  const std::uint32_t back = patches.patch_at(triangle, place, true);
+  return patches.patch_at(triangle, place, false) == patches.unreached && back != kNothing && back != patches.unreached;
+}
+
 Gathered Gatherer::on_front(std::uint32_t triangle, Barycentrics place, const SurfacePoint& point,
                             std::uint32_t index) const {
   const bool unreached = patches.unreached != kNothing && patches.patch_at(triangle, place, false) == patches.unreached;

@@ -36,10 +36,14 @@ struct Gatherer {
   std::span<const Rgb> radiosity;  ///< solved, [patch_count], lm/m2
   float offset;                    ///< metres that a hemicube stands off its surface, surface_offset()
   bool sees_sources = true;        ///< whether the sky and what `direct` knows shine on points
+  bool shows_reached_side =
+      false;  ///< surfaces that are lit on both sides show their back where no light reaches the front
 
   /// `index` picks the twist and the place in the low-discrepancy sequences.
   Gathered at(const SurfacePoint& point, std::uint32_t index) const;
-  /// The same for a point at `place` of the front of a triangle: with fewer rays where no light arrives.
+  /// Whether light reaches the back of a place of a triangle, but not its front.
+  bool only_back_is_reached(std::uint32_t triangle, Barycentrics place) const;
+  /// at() for a point at `place` of the front of a triangle: with fewer rays where no light arrives.
   Gathered on_front(std::uint32_t triangle, Barycentrics place, const SurfacePoint& point, std::uint32_t index) const;
 };
 

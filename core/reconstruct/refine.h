@@ -28,7 +28,7 @@ enum class ErrorSpace : std::uint8_t {
 struct MisfitOptions {
   ErrorSpace space = ErrorSpace::kDisplay;
   float exposure = 0.0F;  ///< k, m2/cd, at which light is cut off at white; 0 chooses as automatic_exposure() does
-  std::size_t places_to_check = 400;  ///< for check_error()
+  std::size_t places_to_check = 400;  ///< for check_error(), >= 1
 };
 
 /// Luminance in cd/m2. What is white at all corners of an element hides its error.

@@ -134,13 +134,15 @@ Gathered gather_sample(const RefinedMesh& mesh, const Gatherer& gatherer, std::u
   SurfacePoint point{weights.x * a + weights.y * b + weights.z * c, shading_normal(mesh, element, weights, flat)};
   const auto& part = mesh.part_of_element[e].corner;
   const Barycentrics at = weights.x * part[0] + weights.y * part[1] + weights.z * part[2];
-  Gathered gathered = gatherer.on_front(mesh.triangle_of_element[e], at, point, number);
-  const std::uint32_t surface = gatherer.scene.surface_of_triangle[mesh.triangle_of_element[e]];
-  if (gathered.back_share > kBuriedShare && gatherer.scene.surfaces[surface].two_sided) {
-    point.normal = -point.normal;
-    gathered = gatherer.at(point, number);
+  const std::uint32_t triangle = mesh.triangle_of_element[e];
+  const bool back_shows = gatherer.shows_reached_side && gatherer.only_back_is_reached(triangle, at);
+  if (!back_shows) {
+    const Gathered gathered = gatherer.on_front(triangle, at, point, number);
+    const bool two_sided = gatherer.scene.surfaces[gatherer.scene.surface_of_triangle[triangle]].two_sided;
+    if (gathered.back_share <= kBuriedShare || !two_sided) return gathered;
   }
-  return gathered;
+  point.normal = -point.normal;
+  return gatherer.at(point, number);
 }
 
 Samples gather_samples(const RefinedMesh& mesh, const Gatherer& gatherer, const SampleOptions& options,

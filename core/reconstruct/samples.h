@@ -41,9 +41,9 @@ glm::vec3 corner_weights(std::uint32_t number);
 Gathered gather_sample(const RefinedMesh& mesh, const Gatherer& gatherer, std::uint32_t e, std::uint32_t number,
                        const glm::vec3& weights);
 
-/// Gathers at samples inside each element: `per_element`, more where it is larger than others, fewer where it is smaller
-/// or a mesh is finer than its light. A surface that is lit on both sides shows its front; its back where the front is buried.
-/// Parallel; throws `Cancelled`.
+/// Gathers at samples inside each element: `per_element`, more where it is larger than others, fewer where it is
+/// smaller or a mesh is finer than its light. A surface that is lit on both sides shows its front; its back where the
+/// front is buried. Parallel; throws `Cancelled`.
 Samples gather_samples(const RefinedMesh& mesh, const Gatherer& gatherer, const SampleOptions& options,
                        const Progress& progress);
 

@@ -201,6 +201,28 @@ TEST(Samples, AreNeverBelowWhatStandsOnAFloor) {
   EXPECT_GT(std::count(samples.buried.begin(), samples.buried.end(), 1), 10);
 }
 
+// Sheets whose fronts face the inside of a wall were black posts between the windows of a bathroom.
+TEST(Samples, ShowTheBackOfASheetWhoseFrontNoLightReachesIfAsked) {
+  // Of the wall between both rooms only the sheet that faces the dark one is left.
+  Scene scene = test::rooms_on_one_floor(0.9F, 0.1F);
+  const std::size_t count = scene.triangles.size();
+  const bool first_is_left = scene.positions[scene.triangles[count - 4].x].x < 0.95F;
+  const auto left = scene.triangles.end() - (first_is_left ? 4 : 2);
+  scene.triangles.erase(left, left + 2);
+  scene.surface_of_triangle.resize(scene.triangles.size());
+  for (Surface& surface : scene.surfaces) surface.two_sided = true;
+  Gathering g(scene);
+  const auto brightest = [&] {
+    const ElementLight light = g.elements();
+    float most = 0.0F;
+    for (std::size_t e = count - 4; e < count - 2; ++e) most = std::max(most, luminance_of(light.irradiance[e]));
+    return most;
+  };
+  EXPECT_EQ(brightest(), 0.0F);
+  g.gatherer.shows_reached_side = true;
+  EXPECT_GT(brightest(), 1.0F) << "1 cd half a metre behind it";
+}
+
 TEST(Samples, AreTheSameForAnyNumberOfThreads) {
   const Gathering g(test::cornell_box(), Rgb(0.3F, 0.2F, 0.1F));
   const RefinedMesh mesh = subdivide_uniform(g.prepared.scene, {.patch_size = 0.1F, .level_of_triangle = {}}, {}).mesh;
