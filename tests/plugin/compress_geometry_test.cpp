@@ -46,6 +46,18 @@ struct Compressed {
   }
 };
 
+/// The first primitive as a reader of the file sees it.
+struct FirstPrimitive {
+  Document document;
+
+  explicit FirstPrimitive(const Compressed& compressed) : document(read_back(compressed.document, compressed.added)) {}
+
+  RawAccessor rows(const char* semantic) const {
+    const Json& attributes = document.json["meshes"][0]["primitives"][0]["attributes"];
+    return read_accessor(document, attributes[semantic].get<std::size_t>());
+  }
+};
+
 /// A strip of unit squares in the plane z = 0.
 PrimitiveParts squares(std::uint32_t count) {
   PrimitiveParts parts;
@@ -108,11 +120,9 @@ TEST(CompressGeometry, CustomAttributesJointsAndIntegerColoursComeBackExactly) {
   const Compressed compressed(builder, with_draco());
   ASSERT_TRUE(compressed.has_draco(0));
 
-  const Document again = read_back(compressed.document, compressed.added);
-  const Json& attributes = again.json["meshes"][0]["primitives"][0]["attributes"];
-  const auto read = [&](const char* name) { return read_accessor(again, attributes[name].get<std::size_t>()); };
-  const std::vector<float> positions = as_floats(read("POSITION")), heats = as_floats(read("_HEAT"));
-  const RawAccessor joints = read("JOINTS_0"), colors = read("COLOR_0");
+  const FirstPrimitive again(compressed);
+  const std::vector<float> positions = as_floats(again.rows("POSITION")), heats = as_floats(again.rows("_HEAT"));
+  const RawAccessor joints = again.rows("JOINTS_0"), colors = again.rows("COLOR_0");
   ASSERT_EQ(joints.count, parts.positions.size());
   EXPECT_TRUE(colors.normalized);
   for (std::size_t v = 0; v < joints.count; ++v) {
@@ -148,11 +158,9 @@ TEST(CompressGeometry, IntegerNormalsAndTextureCoordinatesComeBackExactly) {
   const Compressed compressed(builder, with_draco());
   ASSERT_TRUE(compressed.has_draco(0));
 
-  const Document again = read_back(compressed.document, compressed.added);
-  const Json& attributes = again.json["meshes"][0]["primitives"][0]["attributes"];
-  const auto read = [&](const char* name) { return read_accessor(again, attributes[name].get<std::size_t>()); };
-  const std::vector<float> positions = as_floats(read("POSITION"));
-  const RawAccessor normal_rows = read("NORMAL"), texcoord_rows = read("TEXCOORD_0");
+  const FirstPrimitive again(compressed);
+  const std::vector<float> positions = as_floats(again.rows("POSITION"));
+  const RawAccessor normal_rows = again.rows("NORMAL"), texcoord_rows = again.rows("TEXCOORD_0");
   for (std::size_t v = 0; v < normal_rows.count; ++v) {
     const float x = positions[3 * v], y = positions[3 * v + 1];
     for (int k = 0; k < 3; ++k) {
