@@ -53,9 +53,12 @@ draco::DataType draco_type(ComponentType component) {
   return draco::DT_FLOAT32;
 }
 
-draco::GeometryAttribute::Type draco_semantic(const std::string& semantic) {
+draco::GeometryAttribute::Type draco_semantic(const std::string& semantic, ComponentType component) {
   if (semantic == "POSITION") return draco::GeometryAttribute::POSITION;
-  if (semantic == "NORMAL") return draco::GeometryAttribute::NORMAL;
+  if (semantic == "NORMAL") {
+    // Draco predicts normals on its octahedron, where integers have never been: it gives back others.
+    return component == ComponentType::kF32 ? draco::GeometryAttribute::NORMAL : draco::GeometryAttribute::GENERIC;
+  }
   if (semantic.starts_with("TEXCOORD_")) return draco::GeometryAttribute::TEX_COORD;
   if (semantic.starts_with("COLOR_")) return draco::GeometryAttribute::COLOR;
   return draco::GeometryAttribute::GENERIC;
@@ -126,8 +129,9 @@ std::unique_ptr<draco::Mesh> mesh_of(const PrimitiveValues& values, bool keep_or
     const RawAccessor& raw = values.attributes[i].raw;
     const std::size_t row = component_size(raw.component) * static_cast<std::size_t>(raw.components);
     draco::GeometryAttribute attribute;
-    attribute.Init(draco_semantic(values.attributes[i].semantic), nullptr, static_cast<std::uint8_t>(raw.components),
-                   draco_type(raw.component), raw.normalized, static_cast<std::int64_t>(row), 0);
+    attribute.Init(draco_semantic(values.attributes[i].semantic, raw.component), nullptr,
+                   static_cast<std::uint8_t>(raw.components), draco_type(raw.component), raw.normalized,
+                   static_cast<std::int64_t>(row), 0);
     const int id = mesh.AddAttribute(attribute, true, static_cast<std::uint32_t>(raw.count));
     mesh.attribute(id)->buffer()->Write(0, raw.bytes.data(), raw.bytes.size());
     mesh.attribute(id)->set_unique_id(i);

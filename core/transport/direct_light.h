@@ -40,6 +40,7 @@ class DirectLight {
   Lamps lamps_;
   BrightSky bright_sky_;
   DirectLightOptions options_;
+  int rays_to_each_light_;
   float offset_;  // m, ends of shadow rays are this far off their surfaces
 };
 

@@ -142,7 +142,7 @@ function fits(patterns, { pointer, before, after }) {
 
 // Differences that no bake may make.
 function forbidden(before, after) {
-  const instanced = before.nodes?.some((_, node) => copy_count({ json: before }, node) > 0)
+  const instanced = before.nodes?.some(({ extensions }) => extensions?.EXT_mesh_gpu_instancing !== undefined)
   return differences(before, after).filter((difference) => {
     const { pointer } = difference
     if (/^\/extensions(Used|Required)/.test(pointer) || fits(allowed, difference)) return false

@@ -46,6 +46,18 @@ struct Compressed {
   }
 };
 
+/// The first primitive as a reader of the file sees it.
+struct FirstPrimitive {
+  Document document;
+
+  explicit FirstPrimitive(const Compressed& compressed) : document(read_back(compressed.document, compressed.added)) {}
+
+  RawAccessor rows(const char* semantic) const {
+    const Json& attributes = document.json["meshes"][0]["primitives"][0]["attributes"];
+    return read_accessor(document, attributes[semantic].get<std::size_t>());
+  }
+};
+
 /// A strip of unit squares in the plane z = 0.
 PrimitiveParts squares(std::uint32_t count) {
   PrimitiveParts parts;
@@ -108,11 +120,9 @@ TEST(CompressGeometry, CustomAttributesJointsAndIntegerColoursComeBackExactly) {
   const Compressed compressed(builder, with_draco());
   ASSERT_TRUE(compressed.has_draco(0));
 
-  const Document again = read_back(compressed.document, compressed.added);
-  const Json& attributes = again.json["meshes"][0]["primitives"][0]["attributes"];
-  const auto read = [&](const char* name) { return read_accessor(again, attributes[name].get<std::size_t>()); };
-  const std::vector<float> positions = as_floats(read("POSITION")), heats = as_floats(read("_HEAT"));
-  const RawAccessor joints = read("JOINTS_0"), colors = read("COLOR_0");
+  const FirstPrimitive again(compressed);
+  const std::vector<float> positions = as_floats(again.rows("POSITION")), heats = as_floats(again.rows("_HEAT"));
+  const RawAccessor joints = again.rows("JOINTS_0"), colors = again.rows("COLOR_0");
   ASSERT_EQ(joints.count, parts.positions.size());
   EXPECT_TRUE(colors.normalized);
   for (std::size_t v = 0; v < joints.count; ++v) {
@@ -122,6 +132,41 @@ TEST(CompressGeometry, CustomAttributesJointsAndIntegerColoursComeBackExactly) {
       EXPECT_EQ(joints.bytes[4 * v + static_cast<std::size_t>(k)], byte_at(x, y, k));
       EXPECT_EQ(colors.bytes[4 * v + static_cast<std::size_t>(k)], byte_at(x, y, k));
     }
+  }
+}
+
+// Draco gives back other normals than it got if they are integers and called normals.
+TEST(CompressGeometry, IntegerNormalsAndTextureCoordinatesComeBackExactly) {
+  GltfBuilder builder;
+  const PrimitiveParts parts = squares(5);
+  const auto normal_at = [](float x, float y, int k) {
+    return static_cast<std::uint8_t>(20.0F * x + 7.0F * y + 3.0F * static_cast<float>(k));
+  };
+  const auto texcoord_at = [](float x, float y) { return static_cast<std::uint8_t>(50.0F * x + y); };
+  Bytes normals, texcoords;
+  for (const glm::vec3& p : parts.positions) {
+    for (int k = 0; k < 4; ++k) normals.push_back(k < 3 ? normal_at(p.x, p.y, k) : std::uint8_t{0});
+    for (int k = 0; k < 4; ++k) texcoords.push_back(k == 0 ? texcoord_at(p.x, p.y) : std::uint8_t{0});
+  }
+  Json primitive = builder.primitive(parts);
+  const std::size_t normal = builder.add_accessor(normals, 5120, "VEC3", parts.positions.size(), true);
+  builder.json["bufferViews"][builder.json["accessors"][normal]["bufferView"].get<std::size_t>()]["byteStride"] = 4;
+  primitive["attributes"]["NORMAL"] = normal;
+  primitive["attributes"]["TEXCOORD_0"] = builder.add_accessor(texcoords, 5123, "VEC2", parts.positions.size(), true);
+  builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {"KHR_mesh_quantization"};
+  builder.add_node(builder.add_mesh(Json::array({primitive})));
+  const Compressed compressed(builder, with_draco());
+  ASSERT_TRUE(compressed.has_draco(0));
+
+  const FirstPrimitive again(compressed);
+  const std::vector<float> positions = as_floats(again.rows("POSITION"));
+  const RawAccessor normal_rows = again.rows("NORMAL"), texcoord_rows = again.rows("TEXCOORD_0");
+  for (std::size_t v = 0; v < normal_rows.count; ++v) {
+    const float x = positions[3 * v], y = positions[3 * v + 1];
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_EQ(normal_rows.bytes[3 * v + static_cast<std::size_t>(k)], normal_at(x, y, k));
+    }
+    EXPECT_EQ(texcoord_rows.bytes[4 * v], texcoord_at(x, y));
   }
 }
 

@@ -63,6 +63,23 @@ TEST(GltfRadiosity, AWhiteFurnaceGlowsEvenly) {
   }
 }
 
+TEST(GltfRadiosity, AnEvenlyLitRoomNeedsItsCornersOnly) {
+  const Bytes input = room(0.5, 0.5).glb();
+  Options options = coarse();
+  options.refine = Refine::kUniform;
+  const Result<BakedGlb> whole = bake_memory(as_input(input), options);
+  options.simplify = true;
+  const Result<BakedGlb> simplified = bake_memory(as_input(input), options);
+  ASSERT_TRUE(whole && simplified);
+  EXPECT_EQ(whole->report.removed_vertices, 0U);
+  EXPECT_GT(whole->report.output_vertices, 24U);
+  EXPECT_EQ(simplified->report.output_vertices, 24U);
+  EXPECT_EQ(simplified->report.output_triangles, 12U);
+  EXPECT_EQ(simplified->report.removed_vertices, whole->report.output_vertices - 24U);
+  EXPECT_GE(simplified->report.estimated_error, whole->report.estimated_error);
+  EXPECT_LT(simplified->report.estimated_error, whole->report.estimated_error + options.max_error);
+}
+
 TEST(GltfRadiosity, TheReportAddsUp) {
   const Bytes input = room(0.5, 0.5).glb();
   const Result<BakedGlb> baked = bake_memory(as_input(input), coarse());

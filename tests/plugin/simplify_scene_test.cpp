@@ -50,9 +50,8 @@ Thinned thinned(const GltfBuilder& builder, int levels = 0, Options options = {}
   options.simplify = true;
   HandBake hand = bake_by_hand(builder, levels, radiosity::Rgb(1.0F), options);
   Thinned result;
-  result.report = export_scene(hand.document, hand.added, hand.scene, hand.bake, options, hand.warnings, {});
+  result.report = export_scene(hand.document, hand.added, hand.scene, hand.bake, options, result.warnings, {});
   result.document = read_back(hand.document, hand.added);
-  result.warnings = hand.warnings;
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/photometry.h"
+#include "tests/core/haze.h"
 #include "tests/core/prepared_scene.h"
 #include "tests/core/test_scenes.h"
 #include "tests/core/test_skies.h"
@@ -406,6 +407,18 @@ TEST(DirectLight, OfABrightPartOfTheSkyHasAPenumbra) {
     exact += texel_vector(scene.sky, t).y * double{luminance_of(scene.sky.map[t])};
   }
   EXPECT_NEAR(double{open} / exact, 1.0, 1e-3);
+}
+
+TEST(DirectLight, APaneLetsItsShareOfALightThroughAtEveryPoint) {
+  const test::Haze detail;
+  Scene scene = floor_and_blocker();
+  scene.detail = &detail;
+  scene.surfaces[scene.surface_of_triangle[2]].see_through = true;
+  scene.lights.push_back({.kind = Light::Kind::kDirectional, .direction = -kUp});
+  const PreparedScene s(scene, 100);
+  for (std::uint32_t index = 0; index < 64; ++index) {
+    EXPECT_NEAR(s.direct.at(on_floor(0.1F, -0.05F), index).x, 0.7F, 1.0F / 16.0F) << index;
+  }
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <optional>
 #include <random>
 
+#include "tests/core/haze.h"
 #include "tests/core/test_scenes.h"
 
 namespace radiosity {
@@ -136,13 +137,6 @@ TEST(Occlusion, PassesBetweenTheStripesOfAFence) {
   }
 }
 
-class Haze : public SurfaceDetail {
- public:
-  Rgb reflectance(std::uint32_t, const SubTriangle&) const override { return Rgb(0.5F); }
-  Rgb emission(std::uint32_t, const SubTriangle&) const override { return Rgb(0.0F); }
-  float opacity(std::uint32_t, Barycentrics) const override { return 0.3F; }
-};
-
 /// A hundred rays with thresholds spread evenly over [0, 1), upwards through whatever lies at the origin's corner.
 std::vector<ShadowRay> evenly_thresholded_rays() {
   std::vector<ShadowRay> rays;
@@ -153,7 +147,7 @@ std::vector<ShadowRay> evenly_thresholded_rays() {
 }
 
 TEST(Occlusion, PartlyOpaqueSurfacesBlockTheirShareOfEvenlySpreadThresholds) {
-  const Haze haze;
+  const test::Haze haze;
   Scene scene = test::parallel_squares(1.0F);
   scene.surfaces[0].see_through = true;
   scene.detail = &haze;
@@ -162,7 +156,7 @@ TEST(Occlusion, PartlyOpaqueSurfacesBlockTheirShareOfEvenlySpreadThresholds) {
 }
 
 TEST(Occlusion, SheetsOneBehindAnotherStopDifferentRays) {
-  const Haze haze;
+  const test::Haze haze;
   Scene scene = test::parallel_squares(1.0F);
   scene.surfaces[0].see_through = true;
   scene.detail = &haze;

@@ -7,16 +7,16 @@
 
 #include <CLI/CLI.hpp>                                 // forbidden
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>  // forbidden
-#include "core/mesh/openmesh_join.h"  // forbidden
 #include <cstdio>                                      // forbidden
 #include <fstream>                                     // forbidden
 #include <iostream>                                    // forbidden
 #include <nlohmann/json.hpp>                           // forbidden
 #include <vector>
 
-#include "plugin/document.h"     // forbidden
-#include "scene.h"               // forbidden
-#include "tools/command_line.h"  // forbidden
+#include "core/mesh/openmesh_join.h"  // forbidden
+#include "plugin/document.h"          // forbidden
+#include "scene.h"                    // forbidden
+#include "tools/command_line.h"       // forbidden
 
 // A comment may say std::cout << and #include <iostream>.
 void print_area(float radius) {
