@@ -79,15 +79,30 @@ void drop_variants(Json& primitive, const PrimitiveInstance& instance, std::vect
       {"variants-dropped", place, "the material variants of this primitive were dropped, the default one was baked"});
 }
 
-float exposure(const std::vector<VertexColors>& colors, const Options& options, ExportReport& report) {
+std::vector<radiosity::ExposureSample> samples_of(const std::vector<VertexColors>& colors) {
   std::vector<radiosity::ExposureSample> samples;
   for (const VertexColors& primitive : colors) {
     samples.insert(samples.end(), primitive.samples.begin(), primitive.samples.end());
   }
-  report.exposure = options.exposure.value_or(radiosity::automatic_exposure(samples));
+  return samples;
+}
+
+/// All colours, with the texture that suits each material, and the exposure they want.
+std::vector<VertexColors> exposed_colors(const ImportedScene& scene, const radiosity::Bake& bake,
+                                         const std::vector<RefinedPrimitive>& refined, const Options& options,
+                                         std::vector<ShownTexture>& textures, ExportReport& report) {
+  const bool unlit = options.target == Target::kUnlit;
+  const ColorParts parts{unlit, unlit && options.bake != BakedLight::kIndirect};
+  std::vector<VertexColors> colors = vertex_colors(scene, bake, refined, parts);
+  report.exposure = options.exposure.value_or(radiosity::automatic_exposure(samples_of(colors)));
   const auto k = static_cast<float>(report.exposure);
-  report.clipped_share = static_cast<double>(radiosity::clipped_share(samples, k));
-  return k;
+  textures.assign(scene.materials.size(), ShownTexture::kBaseColor);
+  if (parts.emission && k > 0.0F) textures = choose_textures(scene, bake, refined, 1.0F / k);
+  if (std::ranges::count(textures, ShownTexture::kEmissive) > 0) {
+    colors = vertex_colors(scene, bake, refined, parts, textures);
+  }
+  report.clipped_share = static_cast<double>(radiosity::clipped_share(samples_of(colors), k));
+  return colors;
 }
 
 /// Where a baked primitive is in the tree, and what it is made of.
@@ -185,12 +200,9 @@ ExportReport export_scene(Document& document, BufferBuilder& buffer, const Impor
   ExportReport report;
   std::vector<RefinedPrimitive> refined = split_by_instance(bake.mesh, scene);
   const bool unlit = options.target == Target::kUnlit;
-  const ColorParts parts{unlit, unlit && options.bake != BakedLight::kIndirect};
-  const std::vector<ShownTexture> textures =
-      parts.emission ? choose_textures(scene, bake, refined)
-                     : std::vector<ShownTexture>(scene.materials.size(), ShownTexture::kBaseColor);
-  const std::vector<VertexColors> colors = vertex_colors(scene, bake, refined, parts, textures);
-  const float k = exposure(colors, options, report);
+  std::vector<ShownTexture> textures;
+  const std::vector<VertexColors> colors = exposed_colors(scene, bake, refined, options, textures, report);
+  const auto k = static_cast<float>(report.exposure);
 
   // Only what is needed.
   if (options.simplify) {

@@ -42,7 +42,7 @@ double squared_luminance(const Rgb& light) {
 }
 
 void add_errors(const ImportedScene& scene, const ImportedMaterial& material, const radiosity::Bake& bake,
-                std::uint32_t element, SquaredErrors& errors) {
+                std::uint32_t element, float white, SquaredErrors& errors) {
   const radiosity::RefinedMesh& mesh = bake.mesh;
   const std::uint32_t triangle = mesh.triangle_of_element[element];
   const SubTriangle& whole = mesh.part_of_element[element];
@@ -51,31 +51,32 @@ void add_errors(const ImportedScene& scene, const ImportedMaterial& material, co
   const Rgb reflected = radiosity::reflected_luminance(scene.detail->shown_reflectance(triangle, whole), irradiance);
   const Rgb emitted = mean_emission(scene.scene, triangle, whole);
 
-  // A texture times what is divided by its mean, less the truth, in which each has its own.
+  // A texture times what is divided by its mean and cut off at white, less the truth, in which each has its own.
   const Texels mean = texels_in(scene, material, triangle, whole);
   const Rgb base_color = glm::max(mean.base_color, Rgb(kDarkestTexture));
   const Rgb emissive = glm::max(mean.emissive, Rgb(kDarkestTexture));
   const double weight = double{element_area(mesh, element)} / (kCuts * kCuts);
   for (std::uint32_t k = 0; k < kCuts * kCuts; ++k) {
     const Texels here = texels_in(scene, material, triangle, compose(whole, radiosity::tile_part(kCuts, k)));
-    const Rgb true_reflected = here.base_color / base_color * reflected;
-    const Rgb true_emitted = here.emissive * material.emissive;
-    errors.base_color += weight * squared_luminance(here.base_color / base_color * emitted - true_emitted);
-    errors.emissive += weight * squared_luminance(here.emissive / emissive * reflected - true_reflected);
+    const Rgb truth = glm::min(here.base_color * (reflected / base_color) + here.emissive * material.emissive, white);
+    const Rgb by_base_color = here.base_color * glm::min((reflected + emitted) / base_color, white);
+    const Rgb by_emissive = here.emissive * glm::min(material.emissive + reflected / emissive, white);
+    errors.base_color += weight * squared_luminance(by_base_color - truth);
+    errors.emissive += weight * squared_luminance(by_emissive - truth);
   }
 }
 
 }  // namespace
 
 std::vector<ShownTexture> choose_textures(const ImportedScene& scene, const radiosity::Bake& bake,
-                                          std::span<const RefinedPrimitive> refined) {
+                                          std::span<const RefinedPrimitive> refined, float white) {
   std::vector<SquaredErrors> errors(scene.materials.size());
   for (std::size_t i = 0; i < refined.size(); ++i) {
     const PrimitiveInstance& instance = scene.instances[i];
     const ImportedMaterial& material = scene.materials[instance.material];
     if (!instance.receives || !may_show_emissive(material)) continue;
     for (const std::uint32_t element : refined[i].elements) {
-      add_errors(scene, material, bake, element, errors[instance.material]);
+      add_errors(scene, material, bake, element, white, errors[instance.material]);
     }
   }
   std::vector<ShownTexture> shown(errors.size(), ShownTexture::kBaseColor);

@@ -20,8 +20,9 @@ enum class ShownTexture : std::uint8_t { kBaseColor, kEmissive };
 inline constexpr float kDarkestTexture = 1.0F / 64.0F;
 
 /// The texture with which less of the displayed luminance is wrong, as mean square over the elements of all instances:
-/// [scene.materials.size()]. The emissive one only of opaque materials, for the other has the alpha.
+/// [scene.materials.size()]. What is brighter than `white` (cd/m2) is cut off, so a lamp may be white whatever its
+/// texture. The emissive one only of opaque materials, for the other has the alpha.
 std::vector<ShownTexture> choose_textures(const ImportedScene& scene, const radiosity::Bake& bake,
-                                          std::span<const RefinedPrimitive> refined);
+                                          std::span<const RefinedPrimitive> refined, float white);
 
 }  // namespace gltf_radiosity

@@ -32,9 +32,9 @@ struct Screen {
     return bake_by_hand(builder, levels, Rgb(2.0F * kPi));
   }
 
-  ShownTexture shown() {
+  ShownTexture shown(float white = 1000.0F) {
     const HandBake hand = baked();
-    return choose_textures(hand.scene, hand.bake, split_by_instance(hand.bake.mesh, hand.scene)).at(0);
+    return choose_textures(hand.scene, hand.bake, split_by_instance(hand.bake.mesh, hand.scene), white).at(0);
   }
 };
 
@@ -51,6 +51,14 @@ TEST(ShownTexture, IsTheOnlyOneThereIs) {
   Screen painted(10.0F);
   painted.material.erase("emissiveTexture");
   EXPECT_EQ(painted.shown(), ShownTexture::kBaseColor);
+}
+
+TEST(ShownTexture, IsThatOfTheBaseColourWhereALampIsWhiteAllTheSame) {
+  Screen lamp(100.0F);
+  lamp.material.erase("pbrMetallicRoughness");
+  lamp.material["emissiveTexture"]["index"] = lamp.builder.add_texture(2, 1, {255, 255, 255, 255, 99, 99, 99, 255});
+  EXPECT_EQ(lamp.shown(), ShownTexture::kEmissive);
+  EXPECT_EQ(lamp.shown(1.0F), ShownTexture::kBaseColor);
 }
 
 TEST(ShownTexture, IsThatOfTheBaseColourWhereItHoldsTheAlpha) {
