@@ -27,7 +27,7 @@ test('three.js shows a baked file as COLOR_0 says', async (t) => {
   }
 
   await t.test('a textured interior with wrap modes, a texture transform, a mask and a blended pane', async (t) => {
-    const file = bake_draft('textured_interior', '--patch-size', sanitized() ? '1' : '0.5')
+    const file = bake_draft('textured_interior', '--patch-size', sanitized() ? '1' : '0.5', '--max-vertices', '2500')
     const mean = await assert_shown(page, file, { width: 400, height: 300, tolerance: 4, least_probes: 500 })
     t.diagnostic(`mean error ${mean.toFixed(2)} of 255`)
   })
