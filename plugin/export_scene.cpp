@@ -206,7 +206,8 @@ ExportReport export_scene(Document& document, BufferBuilder& buffer, const Impor
 
   // Only what is needed.
   if (options.simplify) {
-    report.simplified = simplify_scene(document, scene, bake, {colors, k}, options, refined, warnings, progress);
+    warn_of_named_vertices(document, scene, warnings);
+    report.simplified = simplify_scene(document, scene, bake, {colors, k}, options, refined, progress);
   }
 
   // Geometry and colours.

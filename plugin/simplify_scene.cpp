@@ -40,24 +40,12 @@ void shrink(const radiosity::Simplified& simplified, std::size_t first, std::siz
   }
 }
 
-void warn_of_named_vertices(const Document& document, const ImportedScene& scene, std::vector<Warning>& warnings) {
-  std::set<std::pair<std::uint32_t, std::uint32_t>> warned;
-  for (const PrimitiveInstance& instance : scene.instances) {
-    if (!instance.receives || may_lose_vertices(document, instance)) continue;
-    if (!warned.emplace(instance.mesh, instance.primitive).second) continue;
-    warnings.push_back({"not-simplified", place_of_primitive(instance.mesh, instance.primitive),
-                        "is not simplified: an extension may name its vertices by their numbers"});
-  }
-}
-
 }  // namespace
 
 SimplifyReport simplify_scene(const Document& document, const ImportedScene& scene, const radiosity::Bake& bake,
                               const ExposedColors& colors, const Options& options,
-                              std::vector<RefinedPrimitive>& refined, std::vector<Warning>& warnings,
-                              const radiosity::Progress& progress) {
+                              std::vector<RefinedPrimitive>& refined, const radiosity::Progress& progress) {
   progress.update("simplify", 0.0);
-  warn_of_named_vertices(document, scene, warnings);
   const radiosity::RefinedMesh& mesh = bake.mesh;
   const radiosity::Simplified simplified =
       radiosity::simplify(mesh, carried_attributes(document, scene, mesh, refined, colors, options), progress);
@@ -82,6 +70,16 @@ SimplifyReport simplify_scene(const Document& document, const ImportedScene& sce
     report.light_change = std::sqrt(simplified.squared_light_change / mean.area) / mean.luminance;
   }
   return report;
+}
+
+void warn_of_named_vertices(const Document& document, const ImportedScene& scene, std::vector<Warning>& warnings) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> warned;
+  for (const PrimitiveInstance& instance : scene.instances) {
+    if (!instance.receives || may_lose_vertices(document, instance)) continue;
+    if (!warned.emplace(instance.mesh, instance.primitive).second) continue;
+    warnings.push_back({"not-simplified", place_of_primitive(instance.mesh, instance.primitive),
+                        "is not simplified: an extension may name its vertices by their numbers"});
+  }
 }
 
 }  // namespace gltf_radiosity

@@ -19,11 +19,13 @@ struct SimplifyReport {
 };
 
 /// Takes out of `refined` the vertices that nothing needs (core/mesh/simplify.h, carried_attributes.h): fills in `kept`
-/// and replaces `triangles` and `elements` of instances that lose any. `colors` stay those of all vertices. Warns of
-/// primitives that keep theirs because an extension may name them. Throws `Cancelled`.
+/// and replaces `triangles` and `elements` of instances that lose any. `colors` stay those of all vertices. Throws
+/// `Cancelled`.
 SimplifyReport simplify_scene(const Document& document, const ImportedScene& scene, const radiosity::Bake& bake,
                               const ExposedColors& colors, const Options& options,
-                              std::vector<RefinedPrimitive>& refined, std::vector<Warning>& warnings,
-                              const radiosity::Progress& progress);
+                              std::vector<RefinedPrimitive>& refined, const radiosity::Progress& progress);
+
+/// Warns of primitives that keep their vertices because an extension may name them by their numbers.
+void warn_of_named_vertices(const Document& document, const ImportedScene& scene, std::vector<Warning>& warnings);
 
 }  // namespace gltf_radiosity
