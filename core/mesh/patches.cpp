@@ -115,11 +115,9 @@ struct Grouping {
 
 /// Whether no light reaches a side of a tile, neither its middle nor its corners.
 bool is_unreached(const Patches& patches, const Tile& tile, bool back) {
-  if (patches.unreached == kNothing) return false;
+  if (patches.unreached == kNothing) return false;  // there is no tiling yet
   const Barycentrics middle = middle_of(tile.part);
-  const auto unreached_at = [&](Barycentrics at) {
-    return patches.patch_at(tile.triangle, at, back) == patches.unreached;
-  };
+  const auto unreached_at = [&](Barycentrics at) { return patches.is_unreached(tile.triangle, at, back); };
   return unreached_at(middle) &&
          std::all_of(std::begin(tile.part.corner), std::end(tile.part.corner),
                      [&](Barycentrics at) { return unreached_at(glm::mix(at, middle, 0.05F)); });
@@ -365,6 +363,10 @@ std::uint32_t Patches::patch_at(std::uint32_t triangle, Barycentrics at, bool ba
   const std::uint32_t tile = tiling.tile_at(triangle, at);
   if (tile == kNothing) return kNothing;
   return back ? back_patch_of_tile[tile] : patch_of_tile[tile];
+}
+
+bool Patches::is_unreached(std::uint32_t triangle, Barycentrics at, bool back) const {
+  return unreached != kNothing && patch_at(triangle, at, back) == unreached;
 }
 
 std::span<const SurfacePoint> Patches::points_of(std::uint32_t patch) const {

@@ -64,6 +64,8 @@ struct Patches {
   std::uint32_t patch_count() const { return static_cast<std::uint32_t>(area.size()); }
   /// The patch that shows its light at a point of a triangle; kNothing if that side sends none.
   std::uint32_t patch_at(std::uint32_t triangle, Barycentrics at, bool back) const;
+  /// Whether a side that sends light is one that no light reaches.
+  bool is_unreached(std::uint32_t triangle, Barycentrics at, bool back) const;
   std::span<const SurfacePoint> points_of(std::uint32_t patch) const;
 };
 

@@ -58,14 +58,13 @@ Gathered Gatherer::at(const SurfacePoint& point, std::uint32_t index) const {
 }
 
 bool Gatherer::only_back_is_reached(std::uint32_t triangle, Barycentrics place) const {
-  if (patches.unreached == kNothing) return false;
-  const std::uint32_t back = patches.patch_at(triangle, place, true);
-  return patches.patch_at(triangle, place, false) == patches.unreached && back != kNothing && back != patches.unreached;
+  return patches.is_unreached(triangle, place, false) && patches.patch_at(triangle, place, true) != kNothing &&
+         !patches.is_unreached(triangle, place, true);
 }
 
 Gathered Gatherer::on_front(std::uint32_t triangle, Barycentrics place, const SurfacePoint& point,
                             std::uint32_t index) const {
-  const bool unreached = patches.unreached != kNothing && patches.patch_at(triangle, place, false) == patches.unreached;
+  const bool unreached = patches.is_unreached(triangle, place, false);
   const std::optional<Gathered> dark = unreached ? seen_in_the_dark(*this, point, index) : std::nullopt;
   return dark ? *dark : at(point, index);
 }

@@ -33,11 +33,10 @@ struct Gatherer {
   const ItemBufferMaker& items;
   const DirectLight& direct;
   const SmoothSky& sky;
-  std::span<const Rgb> radiosity;  ///< solved, [patch_count], lm/m2
-  float offset;                    ///< metres that a hemicube stands off its surface, surface_offset()
-  bool sees_sources = true;        ///< whether the sky and what `direct` knows shine on points
-  bool shows_reached_side =
-      false;  ///< surfaces that are lit on both sides show their back where no light reaches the front
+  std::span<const Rgb> radiosity;   ///< solved, [patch_count], lm/m2
+  float offset;                     ///< metres that a hemicube stands off its surface, surface_offset()
+  bool sees_sources = true;         ///< whether the sky and what `direct` knows shine on points
+  bool shows_reached_side = false;  ///< two-sided surfaces show their back where no light reaches the front
 
   /// `index` picks the twist and the place in the low-discrepancy sequences.
   Gathered at(const SurfacePoint& point, std::uint32_t index) const;

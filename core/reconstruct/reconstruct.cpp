@@ -74,7 +74,8 @@ Reconstruction reconstruct(DisplayMesh& display, const Gatherer& gatherer, Fit h
     const bool is_checked = to_cut.empty() || mesh.elements.size() >= check_at;
     if (is_checked) {
       const auto check = [&](std::size_t place_count) {
-        const MisfitOptions options{adapt.space, adapt.exposure, place_count};
+        MisfitOptions options = as_seen;
+        options.places_to_check = place_count;
         return check_error(mesh, light.samples, light.irradiance, misfit, gatherer, options, only_cancelled);
       };
       if (!to_cut.empty()) estimate = check(kPlaces);
