@@ -13,8 +13,16 @@ namespace {
 using radiosity::Rgb;
 using radiosity::SubTriangle;
 
-/// An element is looked at in this many parts squared.
+/// An element is looked at in the middle of this many parts squared.
 constexpr std::uint32_t kCuts = 4;
+
+/// The middle of a part of a triangle. Not all of it: what is cut off at white must not be averaged before.
+SubTriangle spot_in(const SubTriangle& part) {
+  const radiosity::Barycentrics middle = radiosity::middle_of(part);
+  SubTriangle spot;
+  for (int c = 0; c < 3; ++c) spot.corner[c] = glm::mix(middle, part.corner[c], 0.05F);
+  return spot;
+}
 
 /// Squared errors of the displayed luminance, times area.
 struct SquaredErrors {
@@ -57,7 +65,7 @@ void add_errors(const ImportedScene& scene, const ImportedMaterial& material, co
   const Rgb emissive = glm::max(mean.emissive, Rgb(kDarkestTexture));
   const double weight = double{element_area(mesh, element)} / (kCuts * kCuts);
   for (std::uint32_t k = 0; k < kCuts * kCuts; ++k) {
-    const Texels here = texels_in(scene, material, triangle, compose(whole, radiosity::tile_part(kCuts, k)));
+    const Texels here = texels_in(scene, material, triangle, spot_in(compose(whole, radiosity::tile_part(kCuts, k))));
     const Rgb truth = glm::min(here.base_color * (reflected / base_color) + here.emissive * material.emissive, white);
     const Rgb by_base_color = here.base_color * glm::min((reflected + emitted) / base_color, white);
     const Rgb by_emissive = here.emissive * glm::min(material.emissive + reflected / emissive, white);

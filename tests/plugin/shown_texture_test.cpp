@@ -61,6 +61,19 @@ TEST(ShownTexture, IsThatOfTheBaseColourWhereALampIsWhiteAllTheSame) {
   EXPECT_EQ(lamp.shown(1.0F), ShownTexture::kBaseColor);
 }
 
+// The mean of black and very bright texels is as white as a lamp that has no black ones.
+TEST(ShownTexture, IsNotAveragedBeforeItIsCutOffAtWhite) {
+  Screen panel(100.0F);
+  panel.material.erase("pbrMetallicRoughness");
+  std::vector<std::uint8_t> stripes;
+  for (int column = 0; column < 64; ++column) {
+    const std::uint8_t value = column % 8 == 2 || column % 8 == 3 ? 255 : 0;
+    stripes.insert(stripes.end(), {value, value, value, 255});
+  }
+  panel.material["emissiveTexture"]["index"] = panel.builder.add_texture(64, 1, stripes);
+  EXPECT_EQ(panel.shown(20.0F), ShownTexture::kEmissive) << "2 cd/m2 are reflected, 25 emitted on average";
+}
+
 TEST(ShownTexture, IsThatOfTheBaseColourWhereItHoldsTheAlpha) {
   for (const char* mode : {"BLEND", "MASK"}) {
     Screen screen(10.0F);
