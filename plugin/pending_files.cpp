@@ -28,7 +28,7 @@ class Descriptor {
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
 
-  /// Writes everything and flushes it; returns errno of what failed, or 0.
+  /// Writes everything; returns errno of what failed, or 0.
   int write_all(std::span<const std::uint8_t> bytes) {
     constexpr std::size_t kLargestWrite = std::size_t{1} << 30;
     while (!bytes.empty()) {
@@ -36,6 +36,11 @@ class Descriptor {
       if (written < 0 && errno != EINTR) return errno;
       if (written > 0) bytes = bytes.subspan(static_cast<std::size_t>(written));
     }
+    return 0;
+  }
+
+  /// Flushes what was written to the disk and closes; errno or 0.
+  int finish() {
     if (::fsync(descriptor_) != 0) return errno;
     return close();
   }
@@ -75,7 +80,7 @@ void PendingFiles::make_folder(const fs::path& folder) {
   if (fs::create_directory(folder, ignored)) folders_.push_back(folder);
 }
 
-Result<Done> PendingFiles::add(const fs::path& target, std::span<const std::uint8_t> bytes) {
+Result<Done> PendingFiles::add_parts(const fs::path& target, std::span<const std::span<const std::uint8_t>> parts) {
   // Where the bytes shall end up.
   std::error_code error;
   fs::path file = fs::is_symlink(target, error) ? fs::weakly_canonical(target, error) : target;
@@ -90,8 +95,15 @@ Result<Done> PendingFiles::add(const fs::path& target, std::span<const std::uint
   if (const int code = create_beside(file, temporary, descriptor); code != 0) return cannot_write(target, code);
   Descriptor open_file(descriptor);
   files_.push_back({temporary, file});
-  if (const int code = open_file.write_all(bytes); code != 0) return cannot_write(target, code);
+  for (const std::span<const std::uint8_t> part : parts) {
+    if (const int code = open_file.write_all(part); code != 0) return cannot_write(target, code);
+  }
+  if (const int code = open_file.finish(); code != 0) return cannot_write(target, code);
   return Done{};
+}
+
+Result<Done> PendingFiles::add(const fs::path& target, std::span<const std::uint8_t> bytes) {
+  return add_parts(target, std::span(&bytes, 1));
 }
 
 Result<Done> PendingFiles::add(const fs::path& target, std::string_view text) {

@@ -24,6 +24,8 @@ class PendingFiles {
   /// must be a file; a symbolic link to one stays.
   Result<Done> add(const std::filesystem::path& target, std::span<const std::uint8_t> bytes);
   Result<Done> add(const std::filesystem::path& target, std::string_view text);
+  /// The bytes of all `parts` in a row.
+  Result<Done> add_parts(const std::filesystem::path& target, std::span<const std::span<const std::uint8_t>> parts);
 
   /// Renames the files in the order they were added: add last what refers to the others.
   Result<Done> commit();
