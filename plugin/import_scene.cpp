@@ -44,6 +44,17 @@ glm::vec3 unit_or_zero(const glm::dvec3& v) {
   return length > 0.0 && std::isfinite(length) ? glm::vec3(v / length) : glm::vec3(0.0F);
 }
 
+/// How much of something there is, and where the first of it lies.
+struct Found {
+  std::uint64_t count = 0;
+  std::string first;
+
+  void add(std::uint64_t more, std::string place) {
+    if (count == 0 && more > 0) first = std::move(place);
+    count += more;
+  }
+};
+
 /// Makes the scene, part by part. `run` reads as the recipe.
 class SceneImporter {
  public:
@@ -109,7 +120,7 @@ class SceneImporter {
     const auto mesh = static_cast<std::size_t>(model_.nodes[copy.node].mesh);
     for (std::size_t primitive = 0; primitive < model_.meshes[mesh].primitives.size(); ++primitive) {
       if (!has_triangles(model_, mesh, primitive)) {
-        if (copy.number == 0) ++skipped_primitives_;
+        if (copy.number == 0) skipped_primitives_.add(1, place_of_primitive(mesh, primitive));
         continue;
       }
       if (auto done = import_instance(placed, copy, primitive); !done) return done.error();
@@ -164,7 +175,7 @@ class SceneImporter {
 
     add_triangles(source, instance, placed.level[node]);
     add_texcoords(source);
-    bad_normals_ += source.recomputed_normals;
+    bad_normals_.add(source.recomputed_normals, place_of_primitive(mesh, primitive));
     result_.instances.push_back(std::move(instance));
     return Done{};
   }
@@ -375,15 +386,15 @@ class SceneImporter {
   }
 
   void warn() {
-    if (bad_normals_ > 0) {
+    if (bad_normals_.count > 0) {
       warnings_.push_back(
-          {"bad-normals", "",
-           fmt::format("{} normals were zero or not finite and were recomputed from the faces", bad_normals_)});
+          {"bad-normals", bad_normals_.first,
+           fmt::format("{} normals were zero or not finite and were recomputed from the faces", bad_normals_.count)});
     }
-    if (skipped_primitives_ > 0) {
+    if (skipped_primitives_.count > 0) {
       warnings_.push_back(
-          {"points-and-lines", "",
-           fmt::format("{} primitives of points or lines take no part in the light", skipped_primitives_)});
+          {"points-and-lines", skipped_primitives_.first,
+           fmt::format("{} primitives of points or lines take no part in the light", skipped_primitives_.count)});
     }
     if (moves_ || !array_of(document_.json, "animations").empty()) {
       warnings_.push_back({"rest-pose", "", "what animations, skins or morph targets move is lit in its rest pose"});
@@ -404,7 +415,7 @@ class SceneImporter {
   std::vector<std::uint8_t> surface_has_colors_;
   std::vector<std::vector<glm::vec2>> texcoords_;
   std::optional<float> unit_factor_;
-  std::uint64_t bad_normals_ = 0, skipped_primitives_ = 0;
+  Found bad_normals_, skipped_primitives_;
   bool moves_ = false;
 };
 

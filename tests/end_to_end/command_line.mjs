@@ -3,6 +3,7 @@ import { spawnSync } from 'node:child_process'
 import fs from 'node:fs'
 import os from 'node:os'
 import path from 'node:path'
+import { valid_report } from './report_schema.mjs'
 
 // Where CTest says that a thing is; a test without it must fail.
 export function from_environment(name) {
@@ -45,9 +46,9 @@ function run_command(command, args) {
   return { code: status, signal, stdout, stderr, lines, seconds }
 }
 
-// Bakes or throws; answers the report.
+// Bakes or throws; answers the report, which is as docs/report.schema.json has it.
 export function bake(input, output, ...options) {
   const { code, signal, stdout, stderr } = run(input, output, '--progress', 'none', '--json', '-', ...options)
   if (code !== 0) throw new Error(`exit ${code ?? signal} for ${[input, ...options].join(' ')}\n${stderr}`)
-  return JSON.parse(stdout)
+  return valid_report(stdout)
 }
