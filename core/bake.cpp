@@ -38,14 +38,28 @@ bool use_raster(const Scene& scene, const BakeOptions& options) {
   return raster_is_faster(scene.triangles.size(), options.hemicube_resolution);
 }
 
-/// What the patches send to the points where light is gathered, lm/m2: glow is a source, the rest is reflected.
+/// What the patches send to the points where light is gathered, lm/m2.
 std::vector<Rgb> sent_light(const Patches& patches, std::vector<Rgb> radiosity, LightParts parts) {
-  if (parts == LightParts::kBoth) return radiosity;
   for (std::uint32_t i = 0; i < patches.patch_count(); ++i) {
-    const Rgb glow = exitance_of_luminance(patches.glow[i]);
-    radiosity[i] = parts == LightParts::kDirect ? glow : glm::max(radiosity[i] - glow, Rgb(0.0F));
+    radiosity[i] = sent_part(radiosity[i], patches.glow[i], parts);
   }
   return radiosity;
+}
+
+/// Room for the light of samples by light groups, and what patches send of each; `direct` is their direct light.
+SampleLog make_log(const Scene& scene, const Patches& patches, std::span<const Rgb> direct, std::uint32_t sweeps,
+                   LightParts parts, RowCache& rows, const Progress& progress) {
+  const std::vector<std::uint32_t> glow_group = glow_groups(scene, patches);
+  SampleLog log;
+  log.group_count = light_group_count(scene);
+  log.radiosity = solve_groups({patches, log.group_count, direct, glow_group}, sweeps, rows, progress);
+  for (std::uint32_t i = 0; i < patches.patch_count(); ++i) {
+    for (std::uint32_t g = 0; g < log.group_count; ++g) {
+      Rgb& radiosity = log.radiosity[std::size_t{i} * log.group_count + g];
+      radiosity = sent_part(radiosity, g == glow_group[i] ? patches.glow[i] : Rgb(0.0F), parts);
+    }
+  }
+  return log;
 }
 
 BakeReport describe(const RefinedMesh& mesh, const Patches& patches, const Solution& solution,
@@ -87,8 +101,10 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
 
   // Transport: direct light first, then the exchange between patches.
   const DirectLight direct_light(rays, patches, {options.lamp_rays, std::max(1, options.lamp_rays / 4)});
-  std::vector<Rgb> direct = direct_on_patches(direct_light, patches, progress);
-  add_sky(sky, rows, direct, progress);
+  std::vector<Rgb> group_direct(options.light_groups ? std::size_t{patches.patch_count()} * light_group_count(scene)
+                                                     : 0);
+  std::vector<Rgb> direct = direct_on_patches(direct_light, patches, progress, group_direct);
+  add_sky(sky_on_patches(sky, rows, progress), scene, direct, group_direct);
   const SolveProblem problem{patches, direct, options.residual};
   const Solution solution = options.solver == Solver::kGathering ? solve_gathering(problem, rows, progress)
                                                                  : solve_progressive(problem, rows, progress);
@@ -96,6 +112,11 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
   // Reconstruction: light at samples inside the elements, then at vertices; the mesh is cut where that misses the
   // light.
   const std::vector<Rgb> sent = sent_light(patches, solution.radiosity, options.parts);
+  SampleLog log;
+  if (options.light_groups) {
+    const std::uint32_t sweeps = solution.steps / std::max(1U, patches.patch_count());
+    log = make_log(scene, patches, group_direct, sweeps, options.parts, rows, progress);
+  }
   const Gatherer gatherer{scene,
                           patches,
                           sample_hemicube,
@@ -105,8 +126,10 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
                           sent,
                           surface_offset(scene),
                           options.parts != LightParts::kIndirect,
-                          options.show_reached_side};
+                          options.show_reached_side,
+                          options.light_groups ? &log : nullptr};
   Reconstruction light = reconstruct(display, gatherer, options.fit, options.adapt, progress);
+  if (options.light_groups) result.group_irradiance = light_of_groups(scene, display, log, light, options.fit);
 
   const EnergyBalance balance = energy_balance(problem, solution, rows);
   result.report = describe(display.mesh(), patches, solution, balance, light.samples);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/light_groups.h"
 #include "core/mesh/display_mesh.h"
 #include "core/mesh/refined_mesh.h"
 #include "core/mesh/subdivide_uniform.h"
@@ -20,9 +21,6 @@ enum class Visibility : std::uint8_t { kAuto, kRaster, kRays };
 /// Which method solves for the light between the patches.
 enum class Solver : std::uint8_t { kProgressive, kGathering };
 
-/// What of the light at a vertex is wanted: what comes straight from lamps, lights and sky, what surfaces reflect.
-enum class LightParts : std::uint8_t { kBoth, kDirect, kIndirect };
-
 struct BakeOptions {
   Refine refine = Refine::kUniform;
   SubdivideOptions subdivide;    ///< how the display mesh is cut, or what adaptive refinement starts from
@@ -31,6 +29,7 @@ struct BakeOptions {
   Visibility visibility = Visibility::kAuto;
   Solver solver = Solver::kGathering;
   Fit fit = Fit::kLeastSquares;
+  bool light_groups = false;             ///< the light of each group too; needs Solver::kGathering
   bool show_reached_side = false;        ///< of surfaces that are lit on both sides and whose front no light reaches
   LightParts parts = LightParts::kBoth;  ///< of the result; the parts add up to both, but for the noise of each fit
   float residual = 0.001F;               ///< stop when this share of the emitted flux is still unshot, (0,1)
@@ -74,6 +73,9 @@ struct BakeReport {
 struct Bake {
   RefinedMesh mesh;
   std::vector<Rgb> irradiance;  ///< H at each vertex of `mesh`, [vertex_count], lx, never negative
+  /// If asked for: H of each light group before it is dimmed, [light_group_count()][vertex_count], lx, never negative.
+  /// Each times its dimmer, they add up to `irradiance`.
+  std::vector<std::vector<Rgb>> group_irradiance;
   BakeReport report;
 };
 

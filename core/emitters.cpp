@@ -8,11 +8,22 @@
 
 namespace radiosity {
 
-Emitters::Emitters(const Scene& scene) {
+namespace {
+
+float brightness(const Scene& scene, std::uint32_t triangle, Emitters::By by) {
+  if (by == Emitters::By::kFlux) return luminance_of(shown_emission(scene, triangle, {}));
+  const Surface& surface = scene.surfaces[scene.surface_of_triangle[triangle]];
+  const float whole = undyed_brightness(surface, surface.emission);
+  return undyed_brightness(surface, mean_emission(scene, triangle, {})) / (whole > 0.0F ? whole : 1.0F);
+}
+
+}  // namespace
+
+Emitters::Emitters(const Scene& scene, By by) {
   // What sends how much.
   for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) {
     const double area = 0.5 * static_cast<double>(glm::length(scaled_normal(scene, t)));
-    const double luminance = static_cast<double>(luminance_of(mean_emission(scene, t, {})));
+    const double luminance = static_cast<double>(brightness(scene, t, by));
     const double sides = scene.surfaces[scene.surface_of_triangle[t]].two_sided ? 2.0 : 1.0;
     const double flux = sides * luminance * area;
     if (!(flux > 0.0)) continue;

@@ -20,7 +20,11 @@ struct EmitterPlace {
 /// Immutable once built, thread-safe. The scene must outlive it.
 class Emitters {
  public:
-  explicit Emitters(const Scene& scene);
+  /// What a triangle's chance is in proportion to: its flux, or what that would be if all surfaces were equally bright
+  /// and white, so that the choice does not depend on how they are coloured and dimmed.
+  enum class By : std::uint8_t { kFlux, kEqualFlux };
+
+  explicit Emitters(const Scene& scene, By by = By::kFlux);
 
   bool empty() const { return triangles_.empty(); }
 

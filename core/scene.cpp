@@ -99,6 +99,17 @@ std::optional<std::string> validate_lights(const Scene& scene) {
 
 std::optional<std::string> validate_sky(const Scene& scene) { return validate(scene.sky); }
 
+std::optional<std::string> validate_groups(const Scene& scene) {
+  if (light_group_count(scene) > kMaxLightGroups) return "there are too many light groups";
+  if (!scene.dimmers.empty() && scene.dimmers.size() < light_group_count(scene)) {
+    return "there are not as many dimmers as light groups";
+  }
+  for (std::size_t i = 0; i < scene.dimmers.size(); ++i) {
+    if (!is_light(scene.dimmers[i])) return place("dimmers", i) + " is negative or not finite";
+  }
+  return std::nullopt;
+}
+
 const Surface& surface_of(const Scene& scene, std::uint32_t triangle) {
   return scene.surfaces[scene.surface_of_triangle[triangle]];
 }
@@ -106,12 +117,24 @@ const Surface& surface_of(const Scene& scene, std::uint32_t triangle) {
 }  // namespace
 
 std::optional<std::string> validate(const Scene& scene) {
-  for (const auto check : {validate_vertices, validate_triangles, validate_surfaces, validate_lights, validate_sky}) {
+  for (const auto check :
+       {validate_vertices, validate_triangles, validate_surfaces, validate_lights, validate_sky, validate_groups}) {
     if (auto wrong = check(scene)) {
       return wrong;
     }
   }
   return std::nullopt;
+}
+
+std::uint32_t light_group_count(const Scene& scene) {
+  std::uint32_t last = scene.sky.light_group;
+  for (const Surface& surface : scene.surfaces) last = std::max(last, surface.light_group);
+  for (const Light& light : scene.lights) last = std::max(last, light.light_group);
+  return last + 1;
+}
+
+Rgb dimmer_of(const Scene& scene, std::uint32_t light_group) {
+  return scene.dimmers.empty() ? Rgb(1.0F) : scene.dimmers[light_group];
 }
 
 float diagonal(const Scene& scene) {
@@ -159,6 +182,19 @@ Rgb mean_emission(const Scene& scene, std::uint32_t triangle, const SubTriangle&
   const Surface& surface = surface_of(scene, triangle);
   const Rgb emission = surface.varies ? scene.detail->emission(triangle, part) : surface.emission;
   return glm::max(emission, Rgb(0.0F));
+}
+
+Rgb shown_emission(const Scene& scene, std::uint32_t triangle, const SubTriangle& part) {
+  return mean_emission(scene, triangle, part) * dimmer_of(scene, surface_of(scene, triangle).light_group);
+}
+
+float undyed_brightness(const Surface& surface, const Rgb& emission) {
+  if (!surface.varies || surface.emission == Rgb(0.0F)) return luminance_of(emission);
+  Rgb pattern(0.0F);
+  for (int band = 0; band < 3; ++band) {
+    if (surface.emission[band] > 0.0F) pattern[band] = emission[band] / surface.emission[band];
+  }
+  return luminance_of(pattern);
 }
 
 Rgb sky_luminance(const Scene& scene, const glm::vec3& direction) { return luminance_towards(scene.sky, direction); }

@@ -17,6 +17,8 @@
 
 namespace radiosity {
 
+inline constexpr std::uint32_t kMaxLightGroups = 4096;
+
 /// Marks "no triangle", "no patch", "no vertex".
 inline constexpr std::uint32_t kNothing = 0xffffffffU;
 
@@ -30,11 +32,14 @@ struct SubTriangle {
 
 /// How a material takes part in the exchange of diffuse light.
 struct Surface {
-  Rgb reflectance{0.5F};     ///< rho, share of light leaving again, [0,1]; the solvers keep it below kMaxReflectance
-  Rgb emission{0.0F};        ///< Le, luminance the surface shows by itself, cd/m2
-  bool two_sided = false;    ///< receives, reflects and emits on both sides; otherwise the back only blocks
-  bool varies = false;       ///< reflectance or emission change over the surface: ask Scene::detail
-  bool see_through = false;  ///< not everywhere opaque: ask Scene::detail for the opacity at each hit
+  Rgb reflectance{0.5F};  ///< rho, share of light leaving again, [0,1]; the solvers keep it below kMaxReflectance
+  /// Le, luminance the surface shows by itself, cd/m2. Where it varies: what the whole is in proportion to, band by
+  /// band, or nothing if that is not known.
+  Rgb emission{0.0F};
+  bool two_sided = false;         ///< receives, reflects and emits on both sides; otherwise the back only blocks
+  bool varies = false;            ///< reflectance or emission change over the surface: ask Scene::detail
+  bool see_through = false;       ///< not everywhere opaque: ask Scene::detail for the opacity at each hit
+  std::uint32_t light_group = 0;  ///< that its emission belongs to
 };
 
 /// The largest reflectance that light transport accepts: a closed room with more never grows dark.
@@ -65,6 +70,7 @@ struct Light {
   float range = 0.0F;                      ///< metres beyond which nothing arrives; 0 means no limit
   float inner_cone_cos = 1.0F;             ///< cosine of the angle up to which a spot is at full strength
   float outer_cone_cos = 0.70710678F;      ///< cosine of the angle where a spot ends
+  std::uint32_t light_group = 0;
 };
 
 /// Shapes: `positions` and `normals` are [vertex_count]; `triangles` and `surface_of_triangle` are [triangle_count].
@@ -78,12 +84,21 @@ struct Scene {
   std::vector<std::uint32_t> surface_of_triangle;
   std::vector<Surface> surfaces;
   std::vector<Light> lights;
-  Sky sky;                                ///< what shows wherever nothing is hit
+  Sky sky;  ///< what shows wherever nothing is hit
+  /// What the light of each group is multiplied by, per band; ones if empty. What is dimmed to nothing still has a
+  /// light of its own in Bake::group_irradiance.
+  std::vector<Rgb> dimmers;
   const SurfaceDetail* detail = nullptr;  ///< not owned; needed if any surface `varies` or is `see_through`
 };
 
 /// Says what is wrong with a scene (an index out of range, a position that is not finite, ...), or nothing.
 std::optional<std::string> validate(const Scene& scene);
+
+/// One more than the largest light group of a surface, a light or the sky.
+std::uint32_t light_group_count(const Scene& scene);
+
+/// Of a light group: by what its light is multiplied.
+Rgb dimmer_of(const Scene& scene, std::uint32_t light_group);
 
 /// Length of the bounding box's diagonal, metres; 0 for a scene without vertices.
 float diagonal(const Scene& scene);
@@ -100,8 +115,15 @@ glm::vec3 point_at(const Scene& scene, std::uint32_t triangle, Barycentrics at);
 /// Reflectance averaged over a part of a triangle, at most kMaxReflectance per band.
 Rgb mean_reflectance(const Scene& scene, std::uint32_t triangle, const SubTriangle& part);
 
-/// Emitted luminance averaged over a part of a triangle, cd/m2.
+/// Emitted luminance averaged over a part of a triangle, before it is dimmed, cd/m2.
 Rgb mean_emission(const Scene& scene, std::uint32_t triangle, const SubTriangle& part);
+
+/// The same as it shows, dimmed.
+Rgb shown_emission(const Scene& scene, std::uint32_t triangle, const SubTriangle& part);
+
+/// How bright `emission`, a part of a surface's, is for the eye, were the surface's factor white: what decides on
+/// shadow rays does not depend on how a lamp is coloured or dimmed.
+float undyed_brightness(const Surface& surface, const Rgb& emission);
 
 /// Luminance that the open sky shows in a direction (unit, away from the viewer), cd/m2: exact, a sun in it and all.
 Rgb sky_luminance(const Scene& scene, const glm::vec3& direction);

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <optional>
@@ -30,6 +31,7 @@ struct Sky {
   int width = 0, height = 0;       ///< texels of the map
   std::vector<Rgb> map;            ///< [height * width], cd/m2, rows from +y down; empty: no map
   glm::mat3 map_from_world{1.0F};  ///< a rotation: world directions to those of the picture above
+  std::uint32_t light_group = 0;
 
   bool has_map() const { return !map.empty(); }
 };

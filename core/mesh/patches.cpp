@@ -222,6 +222,7 @@ void sum_reflectance(const Scene& scene, std::span<const Survey> surveys, Patche
     if (std::max({rho.x, rho.y, rho.z}) >= kMaxReflectance) patches.reflectance_clamped_area += double{tile.area};
     for (const std::uint32_t patch : {patches.patch_of_tile[tile.tile], patches.back_patch_of_tile[tile.tile]}) {
       if (patch == kNothing) continue;
+      patches.surface[patch] = scene.surface_of_triangle[tile.triangle];
       sums.area[patch] += double{tile.area};
       sums.reflectance[patch] += glm::dvec3(rho) * double{tile.area};
     }
@@ -287,7 +288,11 @@ void set_lamps_apart(const Scene& scene, Patches& patches, Sums& sums) {
     const Barycentrics middle = middle_of(e.part);
     all += double{e.flux};
     if (k < kMaxLamps) {
-      EmissiveTile lamp{{}, e.luminance, surface.two_sided};
+      EmissiveTile lamp{{},
+                        e.luminance,
+                        surface.two_sided,
+                        scene.surface_of_triangle[e.triangle],
+                        undyed_brightness(surface, e.luminance)};
       for (int c = 0; c < 3; ++c) lamp.corner[c] = point_at(scene, e.triangle, e.part.corner[c]);
       patches.lamps.push_back(lamp);
       continue;
@@ -303,6 +308,7 @@ void set_lamps_apart(const Scene& scene, Patches& patches, Sums& sums) {
 void average(const Scene& scene, const Grouping& grouping, Patches& patches) {
   const std::uint32_t patch_count = grouping.patch_count();
   Sums sums(patch_count);
+  patches.surface.resize(patch_count);
   sum_reflectance(scene, grouping.surveys, patches, sums);
   set_lamps_apart(scene, patches, sums);
   patches.area.resize(patch_count);

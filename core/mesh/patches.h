@@ -31,6 +31,8 @@ struct EmissiveTile {
   glm::vec3 corner[3];  ///< metres, counter-clockwise seen from the front
   Rgb luminance{0.0F};  ///< mean over the tile, cd/m2
   bool two_sided = false;
+  std::uint32_t surface = 0;  ///< of the scene
+  float brightness = 0.0F;    ///< beside others of its surface, see undyed_brightness()
 };
 
 struct PatchOptions {
@@ -46,10 +48,11 @@ struct Patches {
   std::vector<std::uint32_t> patch_of_tile;       ///< the patch of the front
   std::vector<std::uint32_t> back_patch_of_tile;  ///< the patch of the back; kNothing where the back only blocks
 
-  std::vector<float> area;           ///< m2
-  std::vector<Rgb> reflectance;      ///< area-weighted mean, at most kMaxReflectance
-  std::vector<Rgb> glow;             ///< mean luminance that is not in `lamps`, cd/m2
-  std::vector<SurfacePoint> points;  ///< [patch_count() * points_per_patch]
+  std::vector<float> area;             ///< m2
+  std::vector<Rgb> reflectance;        ///< area-weighted mean, at most kMaxReflectance
+  std::vector<Rgb> glow;               ///< mean luminance that is not in `lamps`, cd/m2
+  std::vector<std::uint32_t> surface;  ///< of the scene; of the unreached patch: that of some part of it
+  std::vector<SurfacePoint> points;    ///< [patch_count() * points_per_patch]
   int points_per_patch = 0;
 
   /// What emits, as far as it is worth shadow rays: the parts with most flux, at most kMaxLamps, brightest first.

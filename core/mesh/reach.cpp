@@ -95,7 +95,7 @@ class Walker {
       : rays_(rays),
         scene_(rays.scene()),
         patches_(patches),
-        emitters_(rays.scene()),
+        emitters_(rays.scene(), Emitters::By::kEqualFlux),
         offset_(surface_offset(rays.scene())) {}
 
   /// Whether a walk from `here` leads to the open or to something that emits. `passed` takes the patches on the way.

@@ -8,11 +8,14 @@
 // Kavan, Bargteil and Sloan. Least Squares Vertex Baking. 2011
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
 #include "core/mesh/refined_mesh.h"
+#include "core/reconstruct/fit_system.h"
 #include "core/reconstruct/samples.h"
+#include "core/reconstruct/smooth_groups.h"
 
 namespace radiosity {
 
@@ -28,5 +31,20 @@ struct FitOptions {
 /// `guess` [vertex_count], or empty, is where the iteration starts: a fit of the same mesh before it was cut.
 std::vector<Rgb> fit_vertices(const RefinedMesh& mesh, const Samples& samples, const FitOptions& options,
                               std::span<const Rgb> guess = {});
+
+/// What a fit does with light, whatever light it is.
+struct VertexFit {
+  SmoothGroups groups;
+  FitMatrix matrix;  ///< over these groups
+};
+VertexFit make_vertex_fit(const RefinedMesh& mesh, const Samples& samples, const FitOptions& options);
+
+/// The fit to other light of the same samples, [sample_count], not cut off at zero: the fits to two lights add up to
+/// the fit to both. Per smooth group.
+std::vector<glm::dvec3> fit_freely(const RefinedMesh& mesh, const Samples& samples, const VertexFit& fit,
+                                   std::span<const Rgb> irradiance);
+
+/// Values of smooth groups at the vertices, none below zero.
+std::vector<Rgb> of_vertices(const SmoothGroups& groups, std::span<const glm::dvec3> value);
 
 }  // namespace radiosity

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "core/mesh/patches.h"
+#include "core/reconstruct/sample_log.h"
 #include "core/transport/direct_light.h"
 #include "core/transport/sky_parts.h"
 #include "core/visibility/hemicube.h"
@@ -37,13 +38,15 @@ struct Gatherer {
   float offset;                     ///< metres that a hemicube stands off its surface, surface_offset()
   bool sees_sources = true;         ///< whether the sky and what `direct` knows shine on points
   bool shows_reached_side = false;  ///< two-sided surfaces show their back where no light reaches the front
+  SampleLog* log = nullptr;         ///< keeps the light of samples by light groups
 
-  /// `index` picks the twist and the place in the low-discrepancy sequences.
-  Gathered at(const SurfacePoint& point, std::uint32_t index) const;
+  /// `index` picks the twist and the place in the low-discrepancy sequences. `seen` is set, if given.
+  Gathered at(const SurfacePoint& point, std::uint32_t index, const Seen* seen = nullptr) const;
   /// Whether light reaches the back of a place of a triangle, but not its front.
   bool only_back_is_reached(std::uint32_t triangle, Barycentrics place) const;
   /// at() for a point at `place` of the front of a triangle: with fewer rays where no light arrives.
-  Gathered on_front(std::uint32_t triangle, Barycentrics place, const SurfacePoint& point, std::uint32_t index) const;
+  Gathered on_front(std::uint32_t triangle, Barycentrics place, const SurfacePoint& point, std::uint32_t index,
+                    const Seen* seen = nullptr) const;
 };
 
 }  // namespace radiosity

@@ -81,12 +81,14 @@ Samples inherit_samples(const Samples& samples, const RefinedMesh& mesh,
   // Sorted by that.
   std::vector<std::uint32_t> next = now.first_of_element;
   now.at.resize(holder.size());
+  now.number.resize(holder.size());
   now.weights.resize(holder.size());
   now.irradiance.resize(holder.size());
   for (std::uint32_t e = 0; e < old_count; ++e) {
     for (std::uint32_t s = samples.first_of_element[e]; s < samples.first_of_element[e + 1]; ++s) {
       const std::uint32_t to = next[holder[s]]++;
       now.at[to] = samples.at[s];
+      now.number[to] = samples.number[s];
       now.weights[to] =
           parts.is_cut(e) ? clamped(weights_in(mesh.part_of_element[holder[s]], samples.at[s])) : samples.weights[s];
       now.irradiance[to] = samples.irradiance[s];

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <span>
 
-#include "core/reconstruct/fit_vertices.h"
 #include "core/reconstruct/interpolate_vertices.h"
 
 namespace radiosity {
@@ -16,7 +15,7 @@ constexpr FitOptions kAdaptiveFit = {.damping = 0.01, .fades = true};
 
 std::vector<Rgb> fit(const DisplayMesh& display, const Samples& samples, Fit fit, std::span<const Rgb> guess) {
   if (fit == Fit::kInterpolate) return interpolate_vertices(display.mesh(), mean_of_samples(samples));
-  return fit_vertices(display.mesh(), samples, display.bisector ? kAdaptiveFit : FitOptions{}, guess);
+  return fit_vertices(display.mesh(), samples, fit_options(display), guess);
 }
 
 /// Where the error is checked between rounds, and where before refinement ends: the check that finds it low enough is
@@ -53,6 +52,8 @@ RefineEnd end_of(const DisplayMesh& display, bool is_good_enough, bool nothing_t
 }
 
 }  // namespace
+
+FitOptions fit_options(const DisplayMesh& display) { return display.bisector ? kAdaptiveFit : FitOptions{}; }
 
 Reconstruction reconstruct(DisplayMesh& display, const Gatherer& gatherer, Fit how, const RefineOptions& adapt,
                            const Progress& progress) {

@@ -8,6 +8,7 @@
 
 #include "core/mesh/display_mesh.h"
 #include "core/progress.h"
+#include "core/reconstruct/fit_vertices.h"
 #include "core/reconstruct/gather.h"
 #include "core/reconstruct/refine.h"
 #include "core/reconstruct/samples.h"
@@ -37,6 +38,9 @@ struct Reconstruction {
   std::uint32_t rounds = 0;
   RefineEnd end = RefineEnd::kNotAdaptive;
 };
+
+/// How the samples of a display mesh are fitted to its vertices.
+FitOptions fit_options(const DisplayMesh& display);
 
 /// Cuts an adaptive `display` until the estimate of its error is small enough or a limit is reached. Nothing is
 /// gathered twice. Parallel; deterministic; throws `Cancelled`.

@@ -61,11 +61,15 @@ Samples gather_beside(const Samples& known, const RefinedMesh& mesh, const std::
   const std::size_t count = mesh.elements.size(), sample_count = first.back();
   std::vector<Rgb> irradiance(sample_count);
   std::vector<std::uint8_t> buried(sample_count, 0);
+  SampleLog* const log = gatherer.log;
+  if (log != nullptr) log->grow(known.taken + sample_count);
   parallel_in_chunks(count, 1024, progress, "gather", [&](std::size_t e) {
     for (std::uint32_t s = first[e]; s < first[e + 1]; ++s) {
       const std::uint32_t number = known.taken + s;
       const auto element = static_cast<std::uint32_t>(e);
-      const Gathered gathered = gather_sample(mesh, gatherer, element, number, corner_weights(number));
+      const Seen seen = log != nullptr ? log->seen_by(number) : Seen{};
+      const Gathered gathered =
+          gather_sample(mesh, gatherer, element, number, corner_weights(number), log != nullptr ? &seen : nullptr);
       irradiance[s] = gathered.irradiance;
       buried[s] = gathered.back_share > kBuriedShare ? 1 : 0;
     }
@@ -76,20 +80,22 @@ Samples gather_beside(const Samples& known, const RefinedMesh& mesh, const std::
   samples.taken = known.taken + static_cast<std::uint32_t>(sample_count);
   samples.first_of_element.assign(count + 1, 0);
   samples.buried.assign(count, 0);
-  const auto add = [&samples](Barycentrics at, const glm::vec3& weights, const Rgb& light) {
+  const auto add = [&samples](std::uint32_t number, Barycentrics at, const glm::vec3& weights, const Rgb& light) {
+    samples.number.push_back(number);
     samples.at.push_back(at);
     samples.weights.push_back(weights);
     samples.irradiance.push_back(light);
   };
   for (std::size_t e = 0; e < count; ++e) {
     for (std::uint32_t s = known.first_of_element[e]; s < known.first_of_element[e + 1]; ++s) {
-      add(known.at[s], known.weights[s], known.irradiance[s]);
+      add(known.number[s], known.at[s], known.weights[s], known.irradiance[s]);
     }
     for (std::uint32_t s = first[e]; s < first[e + 1]; ++s) {
       if (buried[s] != 0) continue;
-      const glm::vec3 weights = corner_weights(known.taken + s);
+      const std::uint32_t number = known.taken + s;
+      const glm::vec3 weights = corner_weights(number);
       const auto& corner = mesh.part_of_element[e].corner;
-      add(weights.x * corner[0] + weights.y * corner[1] + weights.z * corner[2], weights, irradiance[s]);
+      add(number, weights.x * corner[0] + weights.y * corner[1] + weights.z * corner[2], weights, irradiance[s]);
     }
     samples.first_of_element[e + 1] = static_cast<std::uint32_t>(samples.irradiance.size());
     const bool none = samples.first_of_element[e + 1] == samples.first_of_element[e];
@@ -127,7 +133,7 @@ glm::vec3 corner_weights(std::uint32_t number) {
 }
 
 Gathered gather_sample(const RefinedMesh& mesh, const Gatherer& gatherer, std::uint32_t e, std::uint32_t number,
-                       const glm::vec3& weights) {
+                       const glm::vec3& weights, const Seen* seen) {
   const glm::uvec3& element = mesh.elements[e];
   const glm::vec3 a = mesh.positions[element.x], b = mesh.positions[element.y], c = mesh.positions[element.z];
   const glm::vec3 flat = glm::normalize(glm::cross(b - a, c - a));
@@ -137,12 +143,12 @@ Gathered gather_sample(const RefinedMesh& mesh, const Gatherer& gatherer, std::u
   const std::uint32_t triangle = mesh.triangle_of_element[e];
   const bool back_shows = gatherer.shows_reached_side && gatherer.only_back_is_reached(triangle, at);
   if (!back_shows) {
-    const Gathered gathered = gatherer.on_front(triangle, at, point, number);
+    const Gathered gathered = gatherer.on_front(triangle, at, point, number, seen);
     const bool two_sided = gatherer.scene.surfaces[gatherer.scene.surface_of_triangle[triangle]].two_sided;
     if (gathered.back_share <= kBuriedShare || !two_sided) return gathered;
   }
   point.normal = -point.normal;
-  return gatherer.at(point, number);
+  return gatherer.at(point, number, seen);
 }
 
 Samples gather_samples(const RefinedMesh& mesh, const Gatherer& gatherer, const SampleOptions& options,
@@ -161,13 +167,15 @@ Samples samples_after_cuts(const Samples& samples, const RefinedMesh& mesh,
   return gather_beside(known, mesh, missing(known, mesh, origin_of_element, options.per_element), gatherer, progress);
 }
 
-ElementLight mean_of_samples(const Samples& samples) {
+ElementLight mean_of_samples(const Samples& samples) { return mean_of_samples(samples, samples.irradiance); }
+
+ElementLight mean_of_samples(const Samples& samples, std::span<const Rgb> irradiance) {
   const std::size_t count = samples.first_of_element.size() - 1;
   ElementLight light{std::vector<Rgb>(count, Rgb(0.0F)), std::vector<std::uint8_t>(count, 1)};
   for (std::size_t e = 0; e < count; ++e) {
     const std::uint32_t first = samples.first_of_element[e], last = samples.first_of_element[e + 1];
     if (first == last) continue;
-    for (std::uint32_t s = first; s < last; ++s) light.irradiance[e] += samples.irradiance[s];
+    for (std::uint32_t s = first; s < last; ++s) light.irradiance[e] += irradiance[s];
     light.irradiance[e] /= static_cast<float>(last - first);
     light.unknown[e] = 0;
   }

@@ -27,6 +27,7 @@ struct Samples {
   std::vector<Rgb> irradiance;                  ///< H, lx
   std::vector<std::uint8_t> buried;             ///< [element_count]: 1 where samples were taken and all were buried
   std::vector<Barycentrics> at{};               ///< in the element's triangle; [sample_count()]
+  std::vector<std::uint32_t> number{};          ///< of each sample, among those taken
   std::uint32_t taken = 0;                      ///< samples so far, buried ones included
 
   std::size_t sample_count() const { return irradiance.size(); }
@@ -37,13 +38,13 @@ struct Samples {
 glm::vec3 corner_weights(std::uint32_t number);
 
 /// What is seen from the place of element `e` where its corners have these weights, on the side that shows; buried if
-/// that side is. `number` picks the place in the low-discrepancy sequences.
+/// that side is. `number` picks the place in the low-discrepancy sequences. `seen` is set, if given.
 Gathered gather_sample(const RefinedMesh& mesh, const Gatherer& gatherer, std::uint32_t e, std::uint32_t number,
-                       const glm::vec3& weights);
+                       const glm::vec3& weights, const Seen* seen = nullptr);
 
 /// Gathers at samples inside each element: `per_element`, more where it is larger than others, fewer where it is
-/// smaller or a mesh is finer than its light. A surface that is lit on both sides shows its front; its back where the
-/// front is buried. Parallel; throws `Cancelled`.
+/// smaller or a mesh is finer than its light. What each has seen goes into the gatherer's log, if it has one. A surface
+/// that is lit on both sides shows its front; its back where the front is buried. Parallel; throws `Cancelled`.
 Samples gather_samples(const RefinedMesh& mesh, const Gatherer& gatherer, const SampleOptions& options,
                        const Progress& progress);
 
@@ -60,5 +61,7 @@ struct ElementLight {
   std::vector<std::uint8_t> unknown;  ///< 1 where there is no sample
 };
 ElementLight mean_of_samples(const Samples& samples);
+/// The same for other light of the samples, [sample_count].
+ElementLight mean_of_samples(const Samples& samples, std::span<const Rgb> irradiance);
 
 }  // namespace radiosity

@@ -16,7 +16,7 @@ ShownLight shown_light(const Scene& scene, const RefinedMesh& mesh) {
   parallel_in_chunks(count, count, {}, "", [&](std::size_t e) {
     const std::uint32_t triangle = mesh.triangle_of_element[e];
     shown.reflectance[e] = mean_reflectance(scene, triangle, mesh.part_of_element[e]);
-    shown.emission[e] = mean_emission(scene, triangle, mesh.part_of_element[e]);
+    shown.emission[e] = shown_emission(scene, triangle, mesh.part_of_element[e]);
   });
   return shown;
 }

@@ -28,13 +28,17 @@ class DirectLight {
  public:
   DirectLight(const RayScene& rays, const Patches& patches, const DirectLightOptions& options);
 
-  /// Irradiance at a point, lx. `index` picks the point's place in the low-discrepancy sequences.
-  Rgb at(const SurfacePoint& point, std::uint32_t index) const;
+  /// Irradiance at a point, lx. `index` picks the point's place in the low-discrepancy sequences. To `by_group`
+  /// [light_group_count()], unless it is empty, the light of each group is added, before it is dimmed.
+  Rgb at(const SurfacePoint& point, std::uint32_t index, std::span<Rgb> by_group = {}) const;
 
  private:
-  Rgb from_lamps(const SurfacePoint& point, std::uint32_t index) const;
-  Rgb from_lights(const SurfacePoint& point, std::uint32_t index) const;
-  Rgb from_sky(const SurfacePoint& point, std::uint32_t index) const;
+  struct Scratch;
+
+  void trace_lamps(const SurfacePoint& point, std::uint32_t index, std::uint32_t deal, Scratch& scratch) const;
+  void trace_lights(const SurfacePoint& point, std::uint32_t index, Scratch& scratch) const;
+  void trace_sky(const SurfacePoint& point, std::uint32_t index, Scratch& scratch) const;
+  Rgb sum_of_free(const Scratch& scratch, std::span<Rgb> by_group) const;
 
   const RayScene& rays_;
   Lamps lamps_;
@@ -45,7 +49,9 @@ class DirectLight {
 };
 
 /// Direct light of each patch, the mean over its points: lamps and punctual lights by `direct`, [patch_count], lx.
-/// Parallel; throws `Cancelled`.
-std::vector<Rgb> direct_on_patches(const DirectLight& direct, const Patches& patches, const Progress& progress);
+/// `by_group` [patch_count * light_group_count()], unless it is empty, is set to that of each group, before it is
+/// dimmed. Parallel; throws `Cancelled`.
+std::vector<Rgb> direct_on_patches(const DirectLight& direct, const Patches& patches, const Progress& progress,
+                                   std::span<Rgb> by_group = {});
 
 }  // namespace radiosity

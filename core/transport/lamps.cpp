@@ -53,9 +53,7 @@ glm::vec3 scaled_normal(const EmissiveTile& lamp) {
 
 glm::vec3 middle_of(const EmissiveTile& lamp) { return (lamp.corner[0] + lamp.corner[1] + lamp.corner[2]) / 3.0F; }
 
-double flux_of(const EmissiveTile& lamp) {
-  return double{glm::length(scaled_normal(lamp))} * double{luminance_of(lamp.luminance)};
-}
+double flux_of(const EmissiveTile& lamp) { return double{glm::length(scaled_normal(lamp))} * double{lamp.brightness}; }
 
 /// Irradiance at unit luminance from a lamp so far off that it counts as a point.
 float point_like_irradiance(const EmissiveTile& lamp, const SurfacePoint& at) {
@@ -91,7 +89,14 @@ float triangle_irradiance(const glm::vec3 corner[3], const SurfacePoint& at) {
 
 Lamps::Lamps(std::span<const EmissiveTile> tiles, float surface_offset)
     : tiles_(tiles.begin(), tiles.end()), surface_offset_(surface_offset) {
-  if (!tiles_.empty()) build(0, static_cast<std::uint32_t>(tiles_.size()));
+  // A tree for each surface.
+  std::ranges::stable_sort(tiles_, {}, &EmissiveTile::surface);
+  for (auto first = tiles_.begin(); first != tiles_.end();) {
+    const auto last = std::ranges::upper_bound(first, tiles_.end(), first->surface, {}, &EmissiveTile::surface);
+    const auto start = static_cast<std::uint32_t>(first - tiles_.begin());
+    roots_.push_back(build(start, static_cast<std::uint32_t>(last - first)));
+    first = last;
+  }
 
   // Reach of each lamp, and the running flux.
   reach2_.reserve(tiles_.size());
@@ -140,7 +145,7 @@ Lamps::Group Lamps::describe(std::uint32_t first, std::uint32_t count) const {
   glm::dvec3 middle(0.0), facing(0.0), color(0.0);
   for (std::uint32_t k = first; k < first + count; ++k) {
     middle += flux_of(tiles_[k]) * glm::dvec3(middle_of(tiles_[k]));
-    facing += double{luminance_of(tiles_[k].luminance)} * glm::dvec3(scaled_normal(tiles_[k]));
+    facing += double{tiles_[k].brightness} * glm::dvec3(scaled_normal(tiles_[k]));
     color += double{glm::length(scaled_normal(tiles_[k]))} * glm::dvec3(tiles_[k].luminance);
     group.flux += flux_of(tiles_[k]);
     group.two_sided = group.two_sided || tiles_[k].two_sided;
@@ -163,8 +168,7 @@ double Lamps::weight_of_lamp(std::uint32_t lamp, const SurfacePoint& point) cons
   const glm::vec3 apart = middle_of(tile) - point.position;
   const float irradiance = glm::dot(apart, apart) > reach2_[lamp] ? point_like_irradiance(tile, point)
                                                                   : triangle_irradiance(tile.corner, point);
-  return double{tile.two_sided ? std::abs(irradiance) : std::max(irradiance, 0.0F)} *
-         double{luminance_of(tile.luminance)};
+  return double{tile.two_sided ? std::abs(irradiance) : std::max(irradiance, 0.0F)} * double{tile.brightness};
 }
 
 Lamps::FarView Lamps::view_from_afar(const Group& group, const SurfacePoint& point) const {
@@ -193,7 +197,7 @@ Lamps::FarView Lamps::view_from_afar(const Group& group, const SurfacePoint& poi
   return {FarView::kInView, group.flux * double{height} * double{there} / (double{distance} * distance * distance)};
 }
 
-void Lamps::weigh(const SurfacePoint& point, LampWeights& weights) const {
+void Lamps::weigh(const SurfacePoint& point, std::uint32_t deal, LampWeights& weights) const {
   weights.entries.clear();
   weights.total = 0.0;
   const auto add = [&](double weight, std::uint32_t group) {
@@ -202,10 +206,10 @@ void Lamps::weigh(const SurfacePoint& point, LampWeights& weights) const {
     weights.entries.push_back({weights.total, group});
   };
 
-  // From the root down, what is unclear is opened. The tree is not much deeper than the logarithm of its lamps.
+  // From the roots down, what is unclear is opened. A tree is not much deeper than the logarithm of its lamps.
   thread_local std::vector<std::uint32_t> open;
-  open.clear();
-  if (!groups_.empty()) open.push_back(0);
+  const bool is_last = deal + 1 == deal_count();
+  open.assign(roots_.begin() + deal, is_last ? roots_.end() : roots_.begin() + deal + 1);
   while (!open.empty()) {
     const std::uint32_t index = open.back();
     open.pop_back();

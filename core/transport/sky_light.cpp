@@ -21,8 +21,9 @@ Rgb luminance_of_sky(const SmoothSky& sky, const Hemicube& hemicube, const Viewp
   return sum;
 }
 
-void add_sky(const SmoothSky& sky, RowCache& rows, std::vector<Rgb>& direct, const Progress& progress) {
-  if (sky.is_black()) return;
+std::vector<Rgb> sky_on_patches(const SmoothSky& sky, RowCache& rows, const Progress& progress) {
+  if (sky.is_black()) return {};
+  std::vector<Rgb> irradiance(rows.patch_count());
   std::vector<std::uint32_t> order(rows.patch_count());
   std::iota(order.begin(), order.end(), 0U);
   constexpr std::size_t kPatchesAtOnce = 256;
@@ -32,10 +33,11 @@ void add_sky(const SmoothSky& sky, RowCache& rows, std::vector<Rgb>& direct, con
     rows.fetch(std::span(order).subspan(first, count));
     for (std::size_t i = first; i < first + count; ++i) {
       const FormFactorRow& row = rows.row(order[i]);
-      direct[i] += sky.is_constant() ? irradiance_of_luminance(sky.constant(), row.to_sky)
-                                     : irradiance_of_luminance(row.sky, 1.0F);
+      irradiance[i] = sky.is_constant() ? irradiance_of_luminance(sky.constant(), row.to_sky)
+                                        : irradiance_of_luminance(row.sky, 1.0F);
     }
   }
+  return irradiance;
 }
 
 }  // namespace radiosity

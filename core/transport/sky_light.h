@@ -12,8 +12,8 @@ namespace radiosity {
 Rgb luminance_of_sky(const SmoothSky& sky, const Hemicube& hemicube, const Viewpoint& viewpoint,
                      const ItemBuffer& items);
 
-/// Adds the irradiance (lx) that `sky` brings to the patches to `direct`, [patch_count]. Needs every row of F unless
-/// the sky is black. Throws `Cancelled`.
-void add_sky(const SmoothSky& sky, RowCache& rows, std::vector<Rgb>& direct, const Progress& progress);
+/// Irradiance (lx) that `sky` brings to the patches, [patch_count]; empty if the sky is black, else it needs every row
+/// of F. Throws `Cancelled`.
+std::vector<Rgb> sky_on_patches(const SmoothSky& sky, RowCache& rows, const Progress& progress);
 
 }  // namespace radiosity

@@ -57,4 +57,45 @@ Solution solve_gathering(const SolveProblem& problem, RowCache& rows, const Prog
   return solution;
 }
 
+std::vector<Rgb> solve_groups(const GroupProblem& problem, std::uint32_t sweeps, RowCache& rows,
+                              const Progress& progress) {
+  const Patches& patches = problem.patches;
+  const std::uint32_t count = patches.patch_count();
+  const std::size_t groups = problem.group_count;
+  const auto own = [groups](auto& values, std::uint32_t patch) {
+    return std::span(values).subspan(patch * groups, groups);
+  };
+
+  // What each patch sends before light is exchanged.
+  std::vector<glm::dvec3> first(count * groups);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::span<glm::dvec3> here = own(first, i);
+    for (std::size_t g = 0; g < groups; ++g) {
+      here[g] = glm::dvec3(patches.reflectance[i]) * glm::dvec3(problem.direct[i * groups + g]);
+    }
+    here[problem.glow_group[i]] += glm::dvec3(exitance_of_luminance(patches.glow[i]));
+  }
+
+  std::vector<glm::dvec3> radiosity = first, gathered(groups);
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0U);
+  for (std::uint32_t sweep = 0; sweep < sweeps; ++sweep) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (i % kRowsAtOnce == 0) {
+        progress.update("solve", 0.9 + 0.1 * sweep / sweeps);
+        rows.fetch(std::span(order).subspan(i, std::min<std::size_t>(kRowsAtOnce, count - i)));
+      }
+      const FormFactorRow& row = rows.row(i);
+      std::fill(gathered.begin(), gathered.end(), glm::dvec3(0.0));
+      for (std::size_t k = 0; k < row.patch.size(); ++k) {
+        const std::span<const glm::dvec3> sent = own(radiosity, row.patch[k]);
+        for (std::size_t g = 0; g < groups; ++g) gathered[g] += double{row.factor[k]} * sent[g];
+      }
+      const std::span<glm::dvec3> here = own(radiosity, i), start = own(first, i);
+      for (std::size_t g = 0; g < groups; ++g) here[g] = start[g] + glm::dvec3(patches.reflectance[i]) * gathered[g];
+    }
+  }
+  return {radiosity.begin(), radiosity.end()};
+}
+
 }  // namespace radiosity

@@ -66,10 +66,12 @@ TEST(InheritSamples, PutsNothingIntoAPartWithoutArea) {
   before.at = {{0.25F, 0.25F}, {0.0F, 0.0F}};
   before.weights = {{0.5F, 0.25F, 0.25F}, {1.0F, 0.0F, 0.0F}};
   before.irradiance = {Rgb(1.0F), Rgb(2.0F)};
+  before.number = {7, 8};
   before.buried = {0};
   const Samples after = inherit_samples(before, mesh, std::vector<std::uint32_t>{0, 0});
   EXPECT_EQ(after.first_of_element, (std::vector<std::uint32_t>{0, 0, 2}));
   EXPECT_EQ(after.weights, before.weights);
+  EXPECT_EQ(after.number, before.number);
 }
 
 TEST(InheritSamples, TopsUpOnlyElementsThatWereCut) {

@@ -47,6 +47,7 @@ struct Square {
         glm::vec3 place(0.0F);
         for (int c = 0; c < 3; ++c) place += weights[c] * mesh.positions[mesh.elements[e][c]];
         samples.at.push_back(at);
+        samples.number.push_back(samples.taken);
         samples.weights.push_back(weights);
         samples.irradiance.emplace_back(Rgb(field(place) * kPi / 0.9F));
       }
