@@ -62,13 +62,6 @@ radiosity::Visibility visibility_of(VisibilityMethod method) {
 /// What an element costs at most: its place in the mesh, its samples and its share of the fit.
 constexpr std::uint64_t kBytesPerElement = 512;
 
-/// Three quarters of what the machine has.
-std::uint64_t default_max_memory() {
-  const long pages = ::sysconf(_SC_PHYS_PAGES), page_bytes = ::sysconf(_SC_PAGESIZE);
-  if (pages <= 0 || page_bytes <= 0) return std::uint64_t{2} << 30U;
-  return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page_bytes) / 4 * 3;
-}
-
 radiosity::BakeOptions bake_options(const Options& options, const ImportedScene& scene, double patch_size) {
   radiosity::BakeOptions result;
   result.subdivide.patch_size = static_cast<float>(patch_size);
@@ -168,6 +161,13 @@ Result<Report> bake_between(const Read& read, const Write& write, const Options&
 }  // namespace
 
 std::string_view version() { return GLTF_RADIOSITY_VERSION; }
+
+// Three quarters of what the machine has.
+std::uint64_t default_max_memory() {
+  const long pages = ::sysconf(_SC_PHYS_PAGES), page_bytes = ::sysconf(_SC_PAGESIZE);
+  if (pages <= 0 || page_bytes <= 0) return std::uint64_t{2} << 30U;
+  return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page_bytes) / 4 * 3;
+}
 
 Result<Report> bake_file(const std::string& input, const std::string& output, const Options& options,
                          const Callbacks& callbacks) {

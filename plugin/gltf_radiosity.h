@@ -164,6 +164,9 @@ struct BakedGlb {
 /// Bakes a glTF held in memory (GLB, or JSON whose buffers and images are data URIs) into a GLB.
 Result<BakedGlb> bake_memory(std::span<const std::byte> input, const Options& options, const Callbacks& callbacks = {});
 
+/// What Options::max_memory stands for when it is 0, bytes.
+std::uint64_t default_max_memory();
+
 /// The report as JSON, indented by two spaces.
 std::string to_json(const Report& report);
 

@@ -239,6 +239,21 @@ void add_output_options(CLI::App& app, CommandLine& line) {
   add_progress_option(app, line.progress);
 }
 
+void add_batch_options(CLI::App& app, CommandLine& line) {
+  app.option_defaults()->group("Many files");
+  CLI::Option* const batch = app.add_flag_callback(
+      "--batch", [&line] { line.batch = true; },
+      "Bake many files: IN is a folder, whose .glb and .gltf are baked with all below it, or a text file of paths, one "
+      "a "
+      "line (- for standard input), and OUT is a folder. Each file is baked in a process of its own, whatever happens "
+      "to the others (default: off)");
+  add(app,
+      {"--jobs", "COUNT|auto", "auto",
+       "Files that a batch bakes at once, sharing --threads and --max-memory; auto is one for each thread"},
+      [&line](const std::string& text) { line.jobs = text == "auto" ? 0 : parse_integer(text, 1, 1024); })
+      ->needs(batch);
+}
+
 void add_other_options(CLI::App& app) {
   app.option_defaults()->group("Other");
   app.set_config("--config", "",
@@ -268,6 +283,7 @@ struct Parser {
     add_bake_option(app, line.options);
     add_transport_options(app, line.options, quality);
     add_output_options(app, line);
+    add_batch_options(app, line);
     add_other_options(app);
   }
   Parser(const Parser&) = delete;

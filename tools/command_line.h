@@ -12,10 +12,12 @@ namespace gltf_radiosity::tools {
 /// How progress is shown on stderr. kAuto: a bar if stderr is a terminal, plain lines otherwise.
 enum class ProgressStyle { kAuto, kBar, kPlain, kNone };
 
-/// A bake to be done.
+/// A bake to be done, or with `batch` many.
 struct CommandLine {
-  std::string input;
-  std::string output;
+  std::string input;   ///< with `batch` a folder or a list: batch_plan.h
+  std::string output;  ///< with `batch` a folder
+  bool batch = false;
+  int jobs = 0;  ///< files that a batch bakes at once; 0 chooses
   Options options;
   ProgressStyle progress = ProgressStyle::kAuto;
   std::string json;  ///< file for the report, "-" for stdout, empty for none

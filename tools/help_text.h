@@ -20,6 +20,8 @@ inline constexpr std::string_view kHelpFooter =
     "      A clear day: blue sky, and the sun 40 degrees high between +x and -z\n"
     "  gltf-radiosity hall.glb baked.glb --patch-size 0.25 --subdivide Floor=2 --exposure 0.5 --json -\n"
     "      Edges of at most 25 cm, the node Floor cut twice, a fixed exposure, the report on stdout\n"
+    "  gltf-radiosity --batch levels baked --json report.json\n"
+    "      Every scene of a folder\n"
     "\n"
     "How good is a bake? gltf-radiosity verify IN OUT says it: see gltf-radiosity verify --help.\n"
     "To bake a file that is called verify, write ./verify.\n"

@@ -2,14 +2,19 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "plugin/gltf_radiosity.h"
 #include "plugin/verify.h"
+#include "tools/batch.h"
+#include "tools/batch_plan.h"
+#include "tools/batch_report.h"
 #include "tools/command_line.h"
 #include "tools/exit_code.h"
 #include "tools/interrupt.h"
@@ -71,6 +76,29 @@ int bake_as_asked(const CommandLine& line) {
   return exit_code;
 }
 
+int batch_as_asked(const CommandLine& line) {
+  // Which files
+  const auto planned = plan_batch(line.input, line.output, std::cin);
+  if (const Ending* const ending = std::get_if<Ending>(&planned)) return end_at_once(*ending);
+  const std::vector<BatchFile>& files = std::get<0>(planned);
+
+  // Bake them
+  const auto start = std::chrono::steady_clock::now();
+  const BatchShares shares = batch_shares(line, files.size());
+  const bool quiet = line.progress == ProgressStyle::kNone;
+  const auto say = [quiet](const BatchResult& result, std::string_view text) {
+    if (!quiet || result.exit_code != kExitDone) print(stderr, text);
+  };
+  const std::vector<BatchResult> results = bake_batch(line, files, shares, say);
+
+  // What was done
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  const int exit_code = batch_exit_code(results, interrupted_by());
+  const BatchSummary summary{files, results, exit_code, shares.jobs, elapsed.count()};
+  if (!quiet) print(stderr, batch_table(summary));
+  return report_to_programs(line.json, to_json(summary), exit_code);
+}
+
 int verify_as_asked(const VerifyCommand& command) {
   // Verify
   ProgressBar progress(resolve(command.progress), standard_error());
@@ -104,7 +132,8 @@ int run(std::span<const char* const> arguments) {
   const auto parsed = parse_command_line(arguments);
   if (const Ending* const ending = std::get_if<Ending>(&parsed)) return end_at_once(*ending);
   catch_interrupts();
-  return bake_as_asked(std::get<CommandLine>(parsed));
+  const CommandLine& line = std::get<CommandLine>(parsed);
+  return line.batch ? batch_as_asked(line) : bake_as_asked(line);
 }
 
 }  // namespace

@@ -47,26 +47,6 @@ std::size_t utf8_length(std::string_view text) {
   return 0;
 }
 
-/// File names may hold any byte, JSON only UTF-8: what is not becomes U+FFFD.
-std::string json_string(std::string_view text) {
-  std::string json = "\"";
-  while (!text.empty()) {
-    const std::size_t length = utf8_length(text);
-    const auto first = static_cast<unsigned char>(text.front());
-    if (length == 0) {
-      json += "\\ufffd";
-    } else if (first == '"' || first == '\\') {
-      json += {'\\', text.front()};
-    } else if (first < 0x20U) {
-      json += fmt::format("\\u{:04x}", first);
-    } else {
-      json += text.substr(0, length);
-    }
-    text.remove_prefix(length == 0 ? 1 : length);
-  }
-  return json + "\"";
-}
-
 /// Writes and flushes; answers 0 or the errno of what failed.
 int write_all(std::FILE* file, std::string_view text) {
   errno = 0;
@@ -97,6 +77,25 @@ int replace_file(const std::string& name, std::string_view text) {
 }
 
 }  // namespace
+
+std::string json_string(std::string_view text) {
+  std::string json = "\"";
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    const auto first = static_cast<unsigned char>(text.front());
+    if (length == 0) {
+      json += "\\ufffd";
+    } else if (first == '"' || first == '\\') {
+      json += {'\\', text.front()};
+    } else if (first < 0x20U) {
+      json += fmt::format("\\u{:04x}", first);
+    } else {
+      json += text.substr(0, length);
+    }
+    text.remove_prefix(length == 0 ? 1 : length);
+  }
+  return json + "\"";
+}
 
 std::string to_json(const Error& error) {
   return fmt::format("{{\n  \"error\": {{\n    \"code\": {},\n    \"place\": {},\n    \"message\": {}\n  }}\n}}",

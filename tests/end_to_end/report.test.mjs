@@ -54,7 +54,7 @@ test('a verification is as the schema has it', () => {
 
 test('warnings name a code that docs/report.md lists, and a place in the file', () => {
   const seen = new Set()
-  const scenes = ['torture images torture.gltf', 'points_and_lines.glb', 'skinned_and_morphed.glb', 'extras_everywhere.glb', 'unit_cube.glb']
+  const scenes = ['torture.gltf', 'points_and_lines.glb', 'skinned_and_morphed.glb', 'extras_everywhere.glb', 'unit_cube.glb']
   for (const scene of scenes) {
     const { warnings } = bake(test_asset(scene), target('warned.glb'), ...cheapest, '--refine', 'none')
     for (const { code, place } of warnings) {

@@ -211,6 +211,7 @@ TEST(ImportScene, BrokenNormalsAreRecomputedAndCounted) {
   EXPECT_EQ(result.scene().normals[1], glm::vec3(0, 1, 0));
   ASSERT_TRUE(result.warned("bad-normals"));
   EXPECT_THAT(result.warnings.back().message, testing::StartsWith("2 normals"));
+  EXPECT_EQ(result.warnings.back().place, "meshes[0].primitives[0]");
 }
 
 TEST(ImportScene, WithoutNormalsACubeIsSplitAlongItsEdges) {

@@ -75,6 +75,8 @@ TEST(HelpText, DescribesEveryOption) {
                                           "--exposure",
                                           "--ev100",
                                           "--color-type",
+                                          "--batch",
+                                          "--jobs",
                                           "--json",
                                           "--progress",
                                           "--light-units",
@@ -104,6 +106,8 @@ TEST(HelpText, DescribesEveryOption) {
 TEST(HelpText, StatesTheDefaultsOfTheLibrary) {
   const Options library;
   const std::vector<std::pair<std::string, std::string>> expected = {
+      {"--batch", "off"},
+      {"--jobs", "auto"},
       {"--scene", "auto"},
       {"--refine", "adaptive"},
       {"--max-error", fmt::format("{}", library.max_error)},
