@@ -9,6 +9,7 @@
 
 #include "core/photometry.h"
 #include "core/random.h"
+#include "plugin/our_extras.h"
 #include "plugin/scene_detail.h"
 
 namespace gltf_radiosity {
@@ -123,6 +124,12 @@ std::uint32_t number_of(const glm::vec3& position) {
   return random.bits();
 }
 
+/// Keeps the reflectance as long as it is the same at every vertex.
+void add_reflectance(const Rgb& rho, bool is_first, VertexColors& colors) {
+  if (is_first) colors.reflectance = rho;
+  if (colors.reflectance && *colors.reflectance != rho) colors.reflectance.reset();
+}
+
 VertexColors colors_of_instance(const Source& source, const radiosity::Bake& bake, std::uint32_t instance) {
   const std::vector<glm::vec4> old = old_colors(source);
   const std::vector<float> areas = vertex_areas(source);
@@ -147,6 +154,8 @@ VertexColors colors_of_instance(const Source& source, const radiosity::Bake& bak
     const Rgb texture = emitted.texture.empty() ? Rgb(1.0F) : glm::max(emitted.texture[v], Rgb(kDarkestTexture));
     shown += luminance / texture;
 
+    add_reflectance(source.parts.base_color ? rho : rho * Rgb(source.material.base_color_factor), v == 0, colors);
+    colors.emits = colors.emits || luminance != Rgb(0.0F);
     colors.unexposed.emplace_back(shown, keeps_alpha ? old[v].a : 1.0F);
     colors.samples.push_back({shown, areas[v], luminance != Rgb(0.0F)});
     colors.places.push_back(number_of(source.mesh.positions[source.refined.vertices[v]]));
@@ -219,6 +228,16 @@ std::size_t export_color_accessor(Document& document, BufferBuilder& buffer, con
   const RawAccessor raw{component, 4, normalized, colors.unexposed.size(),
                         encode_floats(values, component, normalized)};
   return append_accessor(document, buffer, picked(raw, kept), BufferTarget::kVertices);
+}
+
+void note_reflectance(const VertexColors& colors, Json& primitive) {
+  if (!colors.reflectance && !colors.emits) return;
+  const auto six_digits = [](float value) { return std::round(static_cast<double>(value) * 1e6) / 1e6; };
+  Json& note = our_extras(primitive);
+  if (const auto& rho = colors.reflectance) {
+    note["reflectance"] = {six_digits(rho->r), six_digits(rho->g), six_digits(rho->b)};
+  }
+  if (colors.emits) note["emits"] = true;
 }
 
 std::string radiance_semantic(const Options& options) {

@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec4.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,6 +37,9 @@ struct VertexColors {
   /// What has to fit into [0,1]: `unexposed`, which with a texture is brighter than what is displayed.
   std::vector<radiosity::ExposureSample> samples;
   std::vector<std::uint32_t> places;  ///< a number for each position: vertices at one place are dithered alike
+  /// The share of the light that `unexposed` shows beside what is emitted, its texture apart; none if it varies.
+  std::optional<radiosity::Rgb> reflectance{};
+  bool emits = false;
 };
 
 /// What COLOR_0 holds beside the light.
@@ -59,6 +63,10 @@ radiosity::Rgb brightest(const VertexColors& colors, std::span<const std::uint32
 /// step, and what lies on a step stays.
 std::size_t export_color_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors,
                                   std::span<const std::uint32_t> kept, const radiosity::Rgb& k, ColorType type);
+
+/// Notes what turns COLOR_0 into illuminance, so that a page can show it (plugin/page/illuminance.js): `reflectance`
+/// and `emits` into the primitive's extras.radiosity.
+void note_reflectance(const VertexColors& colors, Json& primitive);
 
 /// "_NAME" for options.radiance_attribute, with or without its underscore.
 std::string radiance_semantic(const Options& options);

@@ -227,6 +227,7 @@ ExportReport export_scene(Document& document, BufferBuilder& buffer, const Impor
     if (refined[i].changed) export_geometry(document, buffer, instance, refined[i], primitive);
     primitive["attributes"]["COLOR_0"] =
         export_color_accessor(document, buffer, colors[i], refined[i].kept, k / factor, style.color_type);
+    note_reflectance(colors[i], primitive);
     if (!options.radiance_attribute.empty()) {
       primitive["attributes"][radiance_semantic(options)] =
           export_radiance_accessor(document, buffer, colors[i], refined[i].kept, k);

@@ -52,6 +52,31 @@ TEST(ExportColors, WithoutATextureTheReflectedLightIsShown) {
   expect_everywhere(square.colors(), {1.0F, 0.5F, 0.25F, 1.0F});
 }
 
+TEST(ExportColors, WhatIsReflectedAlikeEverywhereIsNoted) {
+  Square square;
+  square.material["pbrMetallicRoughness"] = {{"baseColorFactor", {0.5, 0.25, 0.1, 1.0}}};
+  Json primitive = Json::object();
+  note_reflectance(square.colors(), primitive);
+  EXPECT_EQ(primitive, Json::parse(R"({"extras": {"radiosity": {"reflectance": [0.5, 0.25, 0.1]}}})"));
+}
+
+TEST(ExportColors, WhatIsReflectedDifferentlyHereAndThereIsNotNoted) {
+  Square square;
+  square.old_colors = {glm::vec4(1.0F), glm::vec4(1.0F), glm::vec4(0.5F), glm::vec4(1.0F)};
+  Json primitive = Json::object();
+  note_reflectance(square.colors(), primitive);
+  EXPECT_EQ(primitive, Json::object());
+}
+
+TEST(ExportColors, WhatEmitsIsNotedAsSuch) {
+  Square square;
+  square.material["emissiveFactor"] = {0.0, 0.5, 0.0};
+  Json primitive = {{"extras", "a word"}};
+  note_reflectance(square.colors(), primitive);
+  EXPECT_EQ(primitive, Json::parse(R"({"extras": {"original": "a word",
+                                                  "radiosity": {"reflectance": [1.0, 1.0, 1.0], "emits": true}}})"));
+}
+
 TEST(ExportColors, EveryVertexHasAColour) {
   Square square;
   square.levels = 2;
