@@ -1,58 +1,31 @@
 // URIs -> bytes: data URIs, and files that may not lie outside the glTF's folder.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <fstream>
-#include <optional>
 #include <string_view>
 #include <system_error>
 
+#include "plugin/base64.h"
 #include "plugin/check_document.h"
 #include "plugin/document.h"
 
 namespace gltf_radiosity {
 namespace {
 
-int digit_of(char character, int base) {
-  if (base == 64) {
-    if (character >= 'A' && character <= 'Z') return character - 'A';
-    if (character >= 'a' && character <= 'z') return character - 'a' + 26;
-    if (character >= '0' && character <= '9') return character - '0' + 52;
-    if (character == '+' || character == '-') return 62;
-    if (character == '/' || character == '_') return 63;
-    return -1;
-  }
-  if (character >= '0' && character <= '9') return character - '0';
-  if (character >= 'a' && character <= 'f') return character - 'a' + 10;
-  if (character >= 'A' && character <= 'F') return character - 'A' + 10;
+/// 0 to 15, or -1.
+int value_of_hex_digit(char digit) {
+  if (digit >= '0' && digit <= '9') return digit - '0';
+  if (digit >= 'a' && digit <= 'f') return digit - 'a' + 10;
+  if (digit >= 'A' && digit <= 'F') return digit - 'A' + 10;
   return -1;
-}
-
-std::optional<Bytes> decode_base64(std::string_view text) {
-  while (text.ends_with('=')) text.remove_suffix(1);
-  if (text.size() % 4 == 1) return std::nullopt;
-  Bytes bytes;
-  bytes.reserve(text.size() / 4 * 3 + 2);
-  std::uint32_t group = 0;
-  int bits = 0;
-  for (const char character : text) {
-    const int digit = digit_of(character, 64);
-    if (digit < 0) return std::nullopt;
-    group = (group << 6) | static_cast<std::uint32_t>(digit);
-    bits += 6;
-    if (bits < 8) continue;
-    bits -= 8;
-    bytes.push_back(static_cast<std::uint8_t>(group >> bits));
-  }
-  return bytes;
 }
 
 std::string decode_percent(std::string_view text) {
   std::string decoded;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const int high = text[i] == '%' && i + 2 < text.size() ? digit_of(text[i + 1], 16) : -1;
-    const int low = high >= 0 ? digit_of(text[i + 2], 16) : -1;
+    const int high = text[i] == '%' && i + 2 < text.size() ? value_of_hex_digit(text[i + 1]) : -1;
+    const int low = high >= 0 ? value_of_hex_digit(text[i + 2]) : -1;
     if (low < 0) {
       decoded += text[i];
     } else {

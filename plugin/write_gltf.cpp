@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cctype>
 #include <cstring>
 #include <string>
 #include <system_error>
 #include <utility>
 
+#include "plugin/base64.h"
 #include "plugin/merge_buffers.h"
 #include "plugin/pending_files.h"
 
@@ -56,21 +56,8 @@ void append_chunk(Bytes& bytes, std::uint32_t type, std::span<const std::uint8_t
 
 // --- URIs
 
-std::string base64(std::span<const std::uint8_t> bytes) {
-  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t left = std::min<std::size_t>(bytes.size() - i, 3);
-    std::uint32_t group = 0;
-    for (std::size_t b = 0; b < 3; ++b) group = (group << 8) | (b < left ? bytes[i + b] : 0U);
-    for (std::size_t d = 0; d < 4; ++d) text += d <= left ? kDigits[(group >> (18 - 6 * d)) & 63U] : '=';
-  }
-  return text;
-}
-
 std::string data_uri(const char* type, std::span<const std::uint8_t> bytes) {
-  return fmt::format("data:{};base64,{}", type, base64(bytes));
+  return fmt::format("data:{};base64,{}", type, encode_base64(bytes));
 }
 
 /// A relative path as a URI.

@@ -4,6 +4,8 @@
 
 #include <cstring>
 
+#include "plugin/base64.h"
+
 namespace gltf_radiosity {
 namespace {
 
@@ -169,21 +171,6 @@ Bytes encode_png(int width, int height, const std::vector<std::uint8_t>& rgba) {
   png_image_write_to_memory(&image, bytes.data(), &size, 0, rgba.data(), 0, nullptr);
   bytes.resize(size);
   return bytes;
-}
-
-std::string encode_base64(std::span<const std::uint8_t> bytes) {
-  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t left = bytes.size() - i;
-    const unsigned group = (unsigned{bytes[i]} << 16) | (left > 1 ? unsigned{bytes[i + 1]} << 8 : 0U) |
-                           (left > 2 ? unsigned{bytes[i + 2]} : 0U);
-    text += kDigits[group >> 18];
-    text += kDigits[(group >> 12) & 63];
-    text += left > 1 ? kDigits[(group >> 6) & 63] : '=';
-    text += left > 2 ? kDigits[group & 63] : '=';
-  }
-  return text;
 }
 
 }  // namespace gltf_radiosity

@@ -80,6 +80,5 @@ class GltfBuilder {
 PrimitiveParts unit_square();
 
 Bytes encode_png(int width, int height, const std::vector<std::uint8_t>& rgba);
-std::string encode_base64(std::span<const std::uint8_t> bytes);
 
 }  // namespace gltf_radiosity

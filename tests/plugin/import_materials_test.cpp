@@ -8,17 +8,17 @@
 namespace gltf_radiosity {
 namespace {
 
-struct Imported {
+struct ReadMaterial {
   ImportedMaterial material;
   std::vector<Warning> warnings;
 };
 
 /// The last material of what `builder` made.
-Imported import_last(const GltfBuilder& builder, Metals metals = Metals::kDiffuse) {
+ReadMaterial import_last(const GltfBuilder& builder, Metals metals = Metals::kDiffuse) {
   const Document document = builder.document();
   const auto model = typed_view(document);
   EXPECT_TRUE(model) << model.error().text();
-  Imported result;
+  ReadMaterial result;
   TextureLibrary textures(document, result.warnings);
   const auto last = static_cast<std::uint32_t>(document.json["materials"].size() - 1);
   const auto material = import_material(document, **model, last, metals, textures);
@@ -27,7 +27,7 @@ Imported import_last(const GltfBuilder& builder, Metals metals = Metals::kDiffus
   return result;
 }
 
-Imported import_from(const Json& json) {
+ReadMaterial import_from(const Json& json) {
   GltfBuilder builder;
   builder.add_material(json);
   return import_last(builder);
@@ -120,7 +120,7 @@ Json glossy(const Json& members) { return {{"extensions", {{"KHR_materials_pbrSp
 TEST(Materials, TheDiffuseColorOfSpecularGlossinessIsTheBaseColor) {
   Json json = glossy({{"diffuseFactor", {0.1, 0.2, 0.3, 0.4}}, {"specularFactor", {0.04, 0.04, 0.04}}});
   json["pbrMetallicRoughness"]["baseColorFactor"] = {1, 0, 0, 1};  // for those who do not know the extension
-  const Imported imported = import_from(json);
+  const ReadMaterial imported = import_from(json);
   const glm::vec4 color = imported.material.base_color_factor;
   EXPECT_NEAR(color.x, 0.1F, 1e-6F);
   EXPECT_NEAR(color.y, 0.2F, 1e-6F);

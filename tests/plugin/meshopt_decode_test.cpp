@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "plugin/accessor_view.h"
+#include "plugin/base64.h"
 #include "tests/plugin/gltf_builder.h"
 
 namespace gltf_radiosity {
