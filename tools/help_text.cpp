@@ -1,6 +1,7 @@
 #include "tools/help_text.h"
 
 #include <sstream>
+#include <utility>
 
 namespace gltf_radiosity::tools {
 namespace {
@@ -28,10 +29,10 @@ std::string wrap(const std::string& text, std::size_t width) {
 
 }  // namespace
 
-HelpFormatter::HelpFormatter() { column_width(kLeftColumn); }
+HelpFormatter::HelpFormatter(std::string usage) : usage_(std::move(usage)) { column_width(kLeftColumn); }
 
 std::string HelpFormatter::make_usage(const CLI::App* /*app*/, std::string name) const {
-  return "\nUsage: " + name + " IN OUT [options]\n";
+  return "\nUsage: " + name + " " + usage_ + " [options]\n";
 }
 
 std::string HelpFormatter::make_group(std::string title, bool is_positional,

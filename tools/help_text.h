@@ -24,7 +24,8 @@ inline constexpr std::string_view kHelpFooter =
     "      Every scene of a folder\n"
     "\n"
     "How good is a bake? gltf-radiosity verify IN OUT says it: see gltf-radiosity verify --help.\n"
-    "To bake a file that is called verify, write ./verify.\n"
+    "What does it look like? gltf-radiosity view OUT --html FILE makes a page that shows it.\n"
+    "To bake a file that is called verify or view, write ./verify or ./view.\n"
     "\n"
     "Exit codes: 0 done; 1 bad input; 2 wrong usage; 3 cannot write; 4 limit reached; 70 a bug of ours;\n"
     "130 and 143 interrupted. The output appears whole or not at all.";
@@ -45,15 +46,35 @@ inline constexpr std::string_view kVerifyFooter =
     "Exit codes: 0 done; 1 bad input; 2 wrong usage; 3 cannot write; 4 limit reached; 5 worse than\n"
     "--max-error; 70 a bug of ours; 130 and 143 interrupted.";
 
+inline constexpr std::string_view kViewDescription =
+    "Makes a page to look at a baked file OUT with, in any browser: its lights can be dimmed and dyed,\n"
+    "the illuminance read in lux, and what it was before the bake be compared.";
+
+inline constexpr std::string_view kViewFooter =
+    "Examples:\n"
+    "  gltf-radiosity view baked.glb --html baked.html\n"
+    "      The page; open it with any browser, or send it to somebody\n"
+    "  gltf-radiosity view hall.glb --html hall.html --title Hall\n"
+    "      Under another name than the file's\n"
+    "\n"
+    "To bake a file that is called view, write ./view.\n"
+    "\n"
+    "Exit codes: 0 done; 1 bad input; 2 wrong usage; 3 cannot write; 4 limit reached; 70 a bug of ours;\n"
+    "130 and 143 interrupted. The page appears whole or not at all.";
+
 /// Two columns, 100 characters wide: names and types, then the description ending in the default.
 class HelpFormatter : public CLI::Formatter {
  public:
-  HelpFormatter();
+  /// `usage`: what stands after the name of the command, before the options.
+  explicit HelpFormatter(std::string usage = "IN OUT");
 
   std::string make_usage(const CLI::App* app, std::string name) const override;
   std::string make_group(std::string title, bool is_positional, std::vector<const CLI::Option*> options) const override;
   std::string make_option_opts(const CLI::Option* option) const override;
   std::string make_option_desc(const CLI::Option* option) const override;
+
+ private:
+  std::string usage_;
 };
 
 }  // namespace gltf_radiosity::tools

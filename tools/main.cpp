@@ -1,4 +1,4 @@
-// START HERE, the command line: parse -> bake or verify -> report. The only code that prints and exits.
+// START HERE, the command line: parse -> bake, verify or view -> report. The only code that prints and exits.
 #include <chrono>
 #include <cstdio>
 #include <exception>
@@ -12,6 +12,7 @@
 
 #include "plugin/gltf_radiosity.h"
 #include "plugin/verify.h"
+#include "plugin/view.h"
 #include "tools/batch.h"
 #include "tools/batch_plan.h"
 #include "tools/batch_report.h"
@@ -22,6 +23,7 @@
 #include "tools/progress_bar.h"
 #include "tools/report_file.h"
 #include "tools/verify_command.h"
+#include "tools/view_command.h"
 
 namespace gltf_radiosity::tools {
 namespace {
@@ -122,12 +124,32 @@ int verify_as_asked(const VerifyCommand& command) {
   return kExitTooInexact;
 }
 
+int view_as_asked(const ViewCommand& command) {
+  ProgressBar progress(resolve(command.progress), standard_error());
+  const Result<ViewReport> result = view_file(command.baked, command.html, command.options, callbacks_of(progress));
+  if (!result) {
+    progress.abandon();
+    print(stderr, error_line(result.error().text()));
+    return exit_code_of(result.error().code, interrupted_by());
+  }
+  progress.finish();
+  for (const Warning& warning : result->warnings) print(stderr, warning_line(warning));
+  if (command.progress != ProgressStyle::kNone) print(stderr, viewed_line(command.html, *result));
+  return kExitDone;
+}
+
 int run(std::span<const char* const> arguments) {
   if (is_verify_command(arguments)) {
     const auto parsed = parse_verify_command(arguments);
     if (const Ending* const ending = std::get_if<Ending>(&parsed)) return end_at_once(*ending);
     catch_interrupts();
     return verify_as_asked(std::get<VerifyCommand>(parsed));
+  }
+  if (is_view_command(arguments)) {
+    const auto parsed = parse_view_command(arguments);
+    if (const Ending* const ending = std::get_if<Ending>(&parsed)) return end_at_once(*ending);
+    catch_interrupts();
+    return view_as_asked(std::get<ViewCommand>(parsed));
   }
   const auto parsed = parse_command_line(arguments);
   if (const Ending* const ending = std::get_if<Ending>(&parsed)) return end_at_once(*ending);

@@ -25,6 +25,12 @@ std::string summary_line(const std::string& output, const Report& report, double
                      one_line(output), report.output_triangles, report.output_vertices, seconds, report.exposure);
 }
 
+std::string viewed_line(const std::string& html, const ViewReport& report) {
+  constexpr double kMega = 1e6;
+  return fmt::format("gltf-radiosity: {}: {:.1f} MB, with a scene of {:.1f} MB\n", one_line(html),
+                     static_cast<double>(report.page_bytes) / kMega, static_cast<double>(report.scene_bytes) / kMega);
+}
+
 std::string verified_lines(const VerifyReport& report) {
   std::string written = "the file names none";
   if (report.written_exposure) {

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "plugin/verify.h"
+#include "plugin/view.h"
 #include "tools/command_line.h"
 
 namespace gltf_radiosity::tools {
@@ -20,6 +21,9 @@ std::string warning_line(const Warning& warning);
 
 /// gltf-radiosity: baked.glb: 12345 triangles, 6789 vertices, 1.23 s, exposure 1 m2/cd
 std::string summary_line(const std::string& output, const Report& report, double seconds);
+
+/// gltf-radiosity: page.html: 1.9 MB, with a scene of 0.8 MB
+std::string viewed_line(const std::string& html, const ViewReport& report);
 
 /// relative RMSE 1.93 % (noise 0.40 % taken out), median ...
 /// exposure 0.998 m2/cd ...

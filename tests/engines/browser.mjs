@@ -2,7 +2,7 @@
 import { execFileSync } from 'node:child_process'
 import fs from 'node:fs'
 import path from 'node:path'
-import { fileURLToPath } from 'node:url'
+import { fileURLToPath, pathToFileURL } from 'node:url'
 
 const here = path.dirname(fileURLToPath(import.meta.url))
 const packages = path.join(here, '..', 'node_modules')
@@ -37,23 +37,52 @@ async function answer(route) {
   return route.fulfill({ body: fs.readFileSync(file), contentType })
 }
 
-// { page, close }: the viewer is loaded, three.js's or the one named. Drawing is done by SwiftShader, so that no graphics card is needed.
-export async function open_viewer(name = 'viewer.html') {
+// Drawing is done by SwiftShader, so that no graphics card is needed.
+async function launch() {
   const playwright = await import('playwright-core').catch(() => {
     throw new Error('the browser driver is missing: run `npm ci` in the folder tests')
   })
-  const browser = await playwright.chromium.launch({
+  return playwright.chromium.launch({
     executablePath: chromium_path(),
     args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
   })
-  const page = await browser.newPage()
+}
+
+// What a page complains about, as it does.
+function problems_of(page) {
   const problems = []
   page.on('pageerror', (error) => problems.push(`${error}`))
   page.on('console', (message) => { if (message.type() === 'error') problems.push(message.text()) })
+  return problems
+}
+
+// { page, close }: the viewer is loaded, three.js's or the one named.
+export async function open_viewer(name = 'viewer.html') {
+  const browser = await launch()
+  const page = await browser.newPage()
+  const problems = problems_of(page)
   await page.route('**/*', answer)
   await page.goto(`${origin}/${name}`)
   await page.waitForFunction(() => window.viewer !== undefined, null, { timeout: 60_000 }).catch((reason) => {
     throw new Error(`the viewer did not start: ${[...problems, reason].join('\n')}`)
   })
   return { page, close: () => browser.close() }
+}
+
+// { open(html), close }: a browser for pages from the disk. `open` answers { page, problems, requests }: what the page complains
+// about, and what it asks for beside itself and what it holds.
+export async function open_browser(viewport) {
+  const browser = await launch()
+  const open = async (html) => {
+    const page = await browser.newPage({ viewport })
+    const [problems, requests] = [problems_of(page), []]
+    const address = pathToFileURL(html).href
+    page.on('request', (request) => { if (request.url() !== address && !/^(data|blob):/.test(request.url())) requests.push(request.url()) })
+    await page.goto(address)
+    await page.waitForSelector('html[data-ready], #message.failed', { timeout: 60_000, state: 'attached' }).catch((reason) => {
+      throw new Error(`the page did not start: ${[...problems, reason].join('\n')}`)
+    })
+    return { page, problems, requests }
+  }
+  return { open, close: () => browser.close() }
 }

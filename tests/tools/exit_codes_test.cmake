@@ -22,6 +22,7 @@ expect(CODE 0 STDOUT "^Bakes .*Usage: gltf-radiosity IN OUT" STDERR "^$" ARGUMEN
 expect(CODE 0 STDOUT "^gltf-radiosity [0-9]+\\.[0-9]+\\.[0-9]+\n$" STDERR "^$" ARGUMENTS --version)
 
 expect(CODE 0 STDOUT "^Says .*Usage: gltf-radiosity verify IN OUT" STDERR "^$" ARGUMENTS verify --help)
+expect(CODE 0 STDOUT "^Makes .*Usage: gltf-radiosity view OUT --html FILE" STDERR "^$" ARGUMENTS view --help)
 
 # Wrong usage: one line, and nothing on stdout.
 expect(CODE 2 STDOUT "^$" STDERR "${one_error}")
@@ -30,6 +31,7 @@ expect(CODE 2 STDOUT "^$" STDERR "${one_error}" ARGUMENTS ${scene} out.glb --no-
 expect(CODE 2 STDOUT "^$" STDERR "${one_error}" ARGUMENTS ${scene} out.glb --sky 1,nan,1)
 
 expect(CODE 2 STDOUT "^$" STDERR "${one_error}" ARGUMENTS verify)
+expect(CODE 2 STDOUT "^$" STDERR "${one_error}" ARGUMENTS view ${scene})
 expect(CODE 2 STDOUT "^$" STDERR "${one_error}" ARGUMENTS verify ${scene} out.glb --hemicube 16)
 
 # Bad input: one line that names the file, a report on request, no output.
@@ -37,6 +39,7 @@ expect(CODE 1 STDOUT "^$" STDERR "${one_error}" ARGUMENTS ${scene} out.glb --pro
 expect(CODE 1 STDOUT "^$" STDERR "${one_error}" ARGUMENTS no_such_file.glb out.glb --progress none)
 expect(CODE 1 STDOUT "\"code\": \"bad-input\"" STDERR "${one_error}" ARGUMENTS ${scene} out.glb --progress none --json -)
 expect(CODE 1 STDOUT "^$" STDERR "${one_error}" ARGUMENTS verify ${scene} out.glb --progress none)
+expect(CODE 1 STDOUT "^$" STDERR "${one_error}" ARGUMENTS view ${scene} --html out.html --progress none)
 expect(CODE 1 STDOUT "\"code\": \"bad-input\"" STDERR "${one_error}"
        ARGUMENTS verify ${scene} out.glb --progress none --json -)
 if(EXISTS ${SCRATCH}/out.glb)
