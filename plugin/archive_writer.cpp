@@ -104,7 +104,7 @@ Result<Done> ArchiveWriter::write(const std::filesystem::path& target) const {
   for (std::size_t i = 0; i < items_.size(); ++i) put_at(directory[i].offset, items_[i].stored());
   put_at(header.directory_offset, {reinterpret_cast<const std::uint8_t*>(directory.data()), directory_bytes});
 
-  PendingFiles files;
+  PendingFiles files(target);
   if (auto added = files.add_parts(target, parts); !added) return added;
   return files.commit();
 }

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <cstring>
-#include <fstream>
 #include <optional>
 #include <system_error>
 
@@ -137,7 +136,19 @@ Result<Done> check_image_files(const Document& document) {
   return Done{};
 }
 
-Result<Document> make_document(ByteSpan bytes, const std::filesystem::path& folder) {
+/// The files that the tree names, as far as they are there.
+std::vector<std::filesystem::path> named_files(const Document& document) {
+  std::vector<std::filesystem::path> files;
+  for (const char* array : {"buffers", "images"}) {
+    for (const Json& owner : array_of(document.json, array)) {
+      if (!owner.contains("uri")) continue;
+      if (const auto file = resolve_uri(owner["uri"].get<std::string>(), document.folder, "")) files.push_back(*file);
+    }
+  }
+  return files;
+}
+
+Result<Document> make_document(ByteSpan bytes, const InputFolder& folder, const ReadOptions& options) {
   // Container.
   Container container{bytes, std::nullopt};
   if (is_glb(bytes)) {
@@ -154,6 +165,10 @@ Result<Document> make_document(ByteSpan bytes, const std::filesystem::path& fold
   document.folder = folder;
   if (auto checked = check_structure(document.json); !checked) return checked.error();
 
+  if (auto spared = check_that_inputs_are_spared(named_files(document), options.spared_by); !spared) {
+    return spared.error();
+  }
+
   // Data.
   if (auto loaded = load_buffers(document, container.bin); !loaded) return loaded.error();
   if (auto decoded = decode_meshopt(document); !decoded) return decoded.error();
@@ -165,16 +180,18 @@ Result<Document> make_document(ByteSpan bytes, const std::filesystem::path& fold
 
 }  // namespace
 
-Result<Document> read_document(const std::filesystem::path& file) {
-  Result<Bytes> bytes = read_file(file, "");
+Result<Document> read_document(const std::filesystem::path& file, const ReadOptions& options) {
+  if (auto spared = check_that_inputs_are_spared(std::array{file}, options.spared_by); !spared) return spared.error();
+  const Result<Bytes> bytes = read_file(file, "", options.max_bytes);
   if (!bytes) return bytes.error();
   std::error_code error;
-  const std::filesystem::path absolute = std::filesystem::absolute(file, error);
-  return make_document(*bytes, absolute.parent_path());
+  InputFolder folder(std::filesystem::absolute(file, error).parent_path(), options.allow_outside);
+  folder.max_bytes = options.max_bytes;
+  return make_document(*bytes, folder, options);
 }
 
-Result<Document> read_document(std::span<const std::uint8_t> bytes, const std::filesystem::path& folder) {
-  return make_document(bytes, folder);
+Result<Document> read_document(std::span<const std::uint8_t> bytes, const InputFolder& folder) {
+  return make_document(bytes, folder, {});
 }
 
 std::string place_of(std::string_view array, std::size_t index) { return fmt::format("{}[{}]", array, index); }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "plugin/gltf_radiosity.h"
+#include "plugin/input_folder.h"
 #include "plugin/result.h"
 
 namespace tinygltf {  // renamed to gr_tinygltf by a compile definition (cmake/dependencies.cmake)
@@ -36,28 +37,28 @@ using Bytes = std::vector<std::uint8_t>;
 struct Document {
   Json json;
   std::vector<Bytes> buffers;
-  std::filesystem::path folder;  ///< where relative URIs start; empty for a document from memory
+  InputFolder folder;
   std::vector<Warning> warnings;
 };
 
+/// How a document is read.
+struct ReadOptions {
+  bool allow_outside = false;          ///< the files it names may lie outside its folder
+  std::vector<std::string> spared_by;  ///< files that will be written: an error if the document needs one of them
+  std::uint64_t max_bytes = kAnySize;  ///< of each file
+};
+
 /// Reads a .glb or .gltf (told apart by content). External buffers are read; the paths of buffers and images must stay
-/// in the file's folder or below. Errors name the place, `accessors[3]`.
-Result<Document> read_document(const std::filesystem::path& file);
-Result<Document> read_document(std::span<const std::uint8_t> bytes, const std::filesystem::path& folder);
+/// in the file's folder or below, unless allowed otherwise. Errors name the place, `accessors[3]`.
+Result<Document> read_document(const std::filesystem::path& file, const ReadOptions& options = {});
+Result<Document> read_document(std::span<const std::uint8_t> bytes, const InputFolder& folder);
 
 /// The document as tinygltf types: materials, textures, samplers, nodes, meshes, accessors, lights. Buffers and images
 /// are left empty in it: read data with accessor_view.h and image_decode.h. Indices agree with the JSON tree.
 Result<std::shared_ptr<const tinygltf::Model>> typed_view(const Document& document);
 
-/// The bytes behind a URI: a data URI decoded, or a file below `folder` (percent-decoded). `place` goes into errors.
-Result<Bytes> read_uri(const std::string& uri, const std::filesystem::path& folder, const std::string& place);
-
-/// The file behind a relative URI: it exists and lies below `folder`, symbolic links followed.
-Result<std::filesystem::path> resolve_uri(const std::string& uri, const std::filesystem::path& folder,
-                                          const std::string& place);
-
-/// A whole file. An empty `place` puts the file's name into errors.
-Result<Bytes> read_file(const std::filesystem::path& file, const std::string& place);
+/// The bytes behind a URI: a data URI decoded, or a file as input_folder.h has it. `place` goes into errors.
+Result<Bytes> read_uri(const std::string& uri, const InputFolder& folder, const std::string& place);
 
 /// The encoded bytes (PNG, JPEG, ...) of images[`image`].
 Result<Bytes> image_bytes(const Document& document, std::size_t image);

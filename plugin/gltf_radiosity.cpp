@@ -173,8 +173,10 @@ Result<Report> bake_file(const std::string& input, const std::string& output, co
                          const Callbacks& callbacks) {
   return behind_firewall([&]() -> Result<Report> {
     if (const auto checked = check_options(options); !checked) return checked.error();
-    if (const auto checked = check_output(input, output); !checked) return checked.error();
-    const auto read = [&] { return read_document(input); };
+    if (const auto checked = check_output(output); !checked) return checked.error();
+    std::vector<std::string> outputs = options.also_written;
+    if (!options.force) outputs.push_back(output);
+    const auto read = [&] { return read_document(input, {options.allow_outside, outputs}); };
     const auto write = [&](Document document, const BufferBuilder& added) {
       return write_gltf(std::move(document), added, output);
     };

@@ -45,6 +45,7 @@ struct Sun {
 /// Every option of a bake. The defaults are what the command line's --help prints.
 struct Options {
   std::optional<std::uint32_t> scene;  ///< which scene of the file, counted from 0; none: its default one, or the first
+  bool allow_outside = false;          ///< buffers and images may lie outside the folder of the file
   // Mesh
   Refine refine = Refine::kAdaptive;
   double patch_size = 0.0;         ///< longest edge of the baked mesh, metres; 0 chooses one that suits the scene
@@ -90,8 +91,10 @@ struct Options {
   Target target = Target::kUnlit;  ///< kKeep: materials stay lit, and COLOR_0 is light without their base colour
   std::string radiance_attribute;  ///< name of a custom attribute for the light of COLOR_0, not clamped; empty: none
   bool strip_lights = false;       ///< leaves punctual and image based lights out of the output
-  int draco_bits = 0;              ///< colours within KHR_draco_mesh_compression, [8, 24]; 0 does not compress
-  bool meshopt = false;            ///< EXT_meshopt_compression; not together with Draco
+  bool force = false;              ///< the output may replace the input, or a buffer or image of it
+  std::vector<std::string> also_written;  ///< what the caller writes himself, as reports: refused if it is the input's
+  int draco_bits = 0;                     ///< colours within KHR_draco_mesh_compression, [8, 24]; 0 does not compress
+  bool meshopt = false;                   ///< EXT_meshopt_compression; not together with Draco
 };
 
 /// Called from one thread at a time.

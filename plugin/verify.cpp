@@ -34,6 +34,7 @@ struct BothScenes {
 
 /// Two files take part: says which one is meant.
 Error in_file(const std::string& file, Error error) {
+  if (error.code == ErrorCode::kBadOption) return error;  // about neither
   if (!error.place.starts_with(file)) error.place = error.place.empty() ? file : file + ": " + error.place;
   return error;
 }
@@ -62,7 +63,8 @@ Result<Done> check_that_all_light_is_shown(const Json& root) {
 Result<BothScenes> read_both(const std::string& input, const std::string& output, const Options& options,
                              std::vector<Warning>& warnings) {
   BothScenes both;
-  const Result<Document> source = read_document(input);
+  const ReadOptions reading{options.allow_outside, options.also_written};
+  const Result<Document> source = read_document(input, reading);
   if (!source) return in_file(input, source.error());
   Result<ImportedScene> source_scene = import_scene(*source, options, warnings);
   if (!source_scene) {
@@ -71,7 +73,7 @@ Result<BothScenes> read_both(const std::string& input, const std::string& output
   }
   both.input = std::move(*source_scene);
 
-  const Result<Document> baked = read_document(output);
+  const Result<Document> baked = read_document(output, reading);
   if (!baked) return in_file(output, baked.error());
   if (const auto checked = check_that_all_light_is_shown(baked->json); !checked)
     return in_file(output, checked.error());
@@ -140,17 +142,10 @@ void add_warnings(VerifyReport& report) {
   }
 }
 
-/// A picture must be a PNG and replace neither scene.
-Result<Done> check_image(const std::string& image, const std::string& input, const std::string& output) {
-  if (image.empty()) return Done{};
-  const std::filesystem::path file(image);
-  if (file.extension() != ".png") return Error{ErrorCode::kBadOption, "--image", "must end in .png"};
-  std::error_code ignored;
-  for (const std::string& scene : {input, output}) {
-    if (!std::filesystem::equivalent(file, scene, ignored)) continue;
-    return Error{ErrorCode::kBadOption, "--image", "must be another file than IN and OUT"};
-  }
-  return Done{};
+/// A picture must be a PNG.
+Result<Done> check_image(const std::string& image) {
+  if (image.empty() || std::filesystem::path(image).extension() == ".png") return Done{};
+  return Error{ErrorCode::kBadOption, "--image", "must end in .png"};
 }
 
 Result<Done> write_picture(const BothScenes& both, const radiosity::RayScene& input_rays, const VerifyReport& report,
@@ -158,7 +153,7 @@ Result<Done> write_picture(const BothScenes& both, const radiosity::RayScene& in
   const radiosity::RayScene output_rays(both.output.scene);
   const PicturedScenes scenes{both.input, input_rays, both.output, output_rays};
   const Pixels pixels = draw_error(scenes, {report.exposure, report.mean_luminance}, options, progress);
-  PendingFiles files;
+  PendingFiles files(options.image);
   if (const auto added = files.add(options.image, encode_png(pixels)); !added) return added.error();
   return files.commit();
 }
@@ -202,11 +197,13 @@ Result<VerifyReport> verify_scenes(const BothScenes& both, const std::string& ou
 
 }  // namespace
 
-Result<VerifyReport> verify_files(const std::string& input, const std::string& output, const VerifyOptions& options,
+Result<VerifyReport> verify_files(const std::string& input, const std::string& output, const VerifyOptions& wanted,
                                   const Callbacks& callbacks) {
   return behind_firewall([&]() -> Result<VerifyReport> {
-    if (const auto checked = check_options(options); !checked) return checked.error();
-    if (const auto checked = check_image(options.image, input, output); !checked) return checked.error();
+    if (const auto checked = check_options(wanted); !checked) return checked.error();
+    if (const auto checked = check_image(wanted.image); !checked) return checked.error();
+    VerifyOptions options = wanted;
+    options.bake.also_written.push_back(options.image);
     Phases phases(callbacks);
     const radiosity::Progress& progress = phases.progress();
     return radiosity::on_threads(options.bake.threads, [&]() -> Result<VerifyReport> {

@@ -5,12 +5,15 @@
 
 #include <cctype>
 #include <cstring>
+#include <set>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include "plugin/base64.h"
+#include "plugin/content_name.h"
 #include "plugin/merge_buffers.h"
+#include "plugin/old_bins.h"
 #include "plugin/pending_files.h"
 
 namespace gltf_radiosity {
@@ -86,27 +89,22 @@ int room_for(const fs::path& target, const Bytes& bytes) {
   return there && *there == bytes ? 0 : -1;
 }
 
-/// A name that depends on nothing but the old one and what the file holds. (FNV-1a)
-fs::path name_by_content(const fs::path& path, const Bytes& bytes) {
-  std::uint32_t hash = 2166136261U;
-  for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 16777619U;
-  fs::path name = path;
-  name.replace_filename(fmt::format("{}-{:08x}{}", path.stem().string(), hash, path.extension().string()));
-  return name;
-}
-
-/// Copies an image that lies elsewhere to the same relative path below the output's folder.
-Result<Done> carry_image(Document& document, std::size_t image, const fs::path& folder, PendingFiles& files) {
+/// Copies an image that lies elsewhere to the same relative path below the output's folder. `carried` are those that
+/// went before.
+Result<Done> carry_image(Document& document, std::size_t image, const fs::path& folder, std::set<fs::path>& carried,
+                         PendingFiles& files) {
   // What it is.
   Json& json = document.json["images"][image];
   const Result<fs::path> file = resolve_uri(json["uri"].get<std::string>(), document.folder, place_of("images", image));
   if (!file) return file.error();
-  const Result<Bytes> bytes = read_file(*file, "");
+  const Result<Bytes> bytes = image_bytes(document, image);
   if (!bytes) return bytes.error();
 
   // Where it goes.
   std::error_code error;
-  fs::path name = file->lexically_relative(fs::weakly_canonical(document.folder, error));
+  fs::path name = file->lexically_relative(fs::weakly_canonical(document.folder.path, error));
+  const bool from_outside = name.empty() || *name.begin() == "..";
+  if (from_outside) name = name_by_content(file->filename(), *bytes);
   int room = room_for(folder / name, *bytes);
   if (room < 0) {
     name = name_by_content(name, *bytes);
@@ -114,17 +112,19 @@ Result<Done> carry_image(Document& document, std::size_t image, const fs::path& 
   }
   if (room < 0) return Error{ErrorCode::kCannotWrite, (folder / name).string(), "is another file"};
   json["uri"] = uri_of(name);
-  return room == 0 ? Result<Done>(Done{}) : files.add(folder / name, *bytes);
+  if (!carried.insert(name).second) return Done{};
+  return room == 0 ? Result<Done>(Done{}) : files.add(folder / name, *bytes, Replace::kNo);
 }
 
 /// Takes care of the images that lie in files of their own.
 Result<Done> carry_images(Document& document, FileKind kind, const fs::path& folder, PendingFiles& files) {
   if (!document.json.contains("images")) return Done{};
-  const bool stay = kind == FileKind::kGltf && is_same_file(document.folder, folder);
+  const bool stay = kind == FileKind::kGltf && is_same_file(document.folder.path, folder);
+  std::set<fs::path> carried;
   for (std::size_t i = 0; i < document.json["images"].size(); ++i) {
     if (stay || !is_external(document.json["images"][i])) continue;
     if (kind == FileKind::kGltf) {
-      if (auto carried = carry_image(document, i, folder, files); !carried) return carried;
+      if (auto done = carry_image(document, i, folder, carried, files); !done) return done;
       continue;
     }
     const Result<Bytes> bytes = image_bytes(document, i);
@@ -134,29 +134,22 @@ Result<Done> carry_images(Document& document, FileKind kind, const fs::path& fol
   return Done{};
 }
 
-/// The .bin beside the output; another name if the input's own data lies there.
-fs::path bin_file(const Document& document, const fs::path& output) {
+/// The .bin beside the output.
+fs::path bin_file(const fs::path& output, const Bytes& bytes) {
   fs::path bin = output;
-  bin.replace_extension(".bin");
-  if (!document.json.contains("buffers")) return bin;
-  for (const Json& buffer : document.json["buffers"]) {
-    if (!buffer.contains("uri") || buffer["uri"].get_ref<const std::string&>().starts_with("data:")) continue;
-    const Result<fs::path> file = resolve_uri(buffer["uri"].get<std::string>(), document.folder, "");
-    if (file && is_same_file(*file, bin)) return bin.replace_extension(".baked.bin");
-  }
-  return bin;
+  return name_by_content(bin.replace_extension(".bin"), bytes);
 }
 
 Result<Done> write_json(Document& document, const BufferBuilder& added, FileKind kind, const fs::path& output,
                         PendingFiles& files) {
   if (auto carried = carry_images(document, kind, folder_of(output), files); !carried) return carried;
-  const fs::path bin = bin_file(document, output);
   Json& root = document.json;
   {
     const Bytes merged = merge_buffers(document, added);
     if (!merged.empty() && kind == FileKind::kEmbedded) {
       root["buffers"][0]["uri"] = data_uri("application/octet-stream", merged);
     } else if (!merged.empty()) {
+      const fs::path bin = bin_file(output, merged);
       root["buffers"][0]["uri"] = uri_of(bin.filename());
       if (auto written = files.add(bin, merged); !written) return written;
     }
@@ -196,7 +189,7 @@ Result<Bytes> to_glb(Document document, const BufferBuilder& added, std::uint64_
   return glb;
 }
 
-Result<Done> check_output(const std::filesystem::path& input, const std::filesystem::path& output) {
+Result<Done> check_output(const std::filesystem::path& output) {
   const auto refuse = [&](ErrorCode code, const char* why) { return Error{code, output.string(), why}; };
   std::error_code error;
   const fs::path folder = folder_of(output);
@@ -208,14 +201,13 @@ Result<Done> check_output(const std::filesystem::path& input, const std::filesys
   if (::access(folder.c_str(), W_OK | X_OK) != 0) {
     return refuse(ErrorCode::kCannotWrite, "the output's folder cannot be written to");
   }
-  if (is_same_file(input, output)) return refuse(ErrorCode::kBadOption, "the output is the input itself");
   return Done{};
 }
 
 Result<Done> write_gltf(Document document, const BufferBuilder& added, const std::filesystem::path& output) {
   const std::optional<FileKind> kind = file_kind(output);
   if (!kind) return Error{ErrorCode::kBadOption, output.string(), "the output's name must end in .glb or .gltf"};
-  PendingFiles files;
+  PendingFiles files(output);
   if (kind == FileKind::kGlb) {
     const Result<Bytes> glb = to_glb(std::move(document), added);
     if (!glb) return glb.error();
@@ -223,7 +215,12 @@ Result<Done> write_gltf(Document document, const BufferBuilder& added, const std
   } else if (auto written = write_json(document, added, *kind, output, files); !written) {
     return written;
   }
-  return files.commit();
+  {
+    const FolderLock lock(folder_of(output), FolderLock::Kind::kShared);
+    if (auto committed = files.commit(); !committed) return committed;
+  }
+  if (kind == FileKind::kGltf) remove_old_bins(output);
+  return Done{};
 }
 
 }  // namespace gltf_radiosity

@@ -26,12 +26,13 @@ inline constexpr std::uint64_t kMaxGlbBytes = 0xffffffffU;
 Result<Bytes> to_glb(Document document, const BufferBuilder& added, std::uint64_t max_bytes = kMaxGlbBytes);
 
 /// Whether `output` can be written, as far as that shows beforehand: a known kind, in a folder that exists and can be
-/// written to, neither something else than a file nor the input itself. `input` is empty for a document from memory.
-Result<Done> check_output(const std::filesystem::path& input, const std::filesystem::path& output);
+/// written to, not something else than a file.
+Result<Done> check_output(const std::filesystem::path& output);
 
 /// Writes a file of the kind its name says. Images that lie outside the output's folder are copied into it; no file
-/// that holds something else is overwritten by that. Files appear whole or not at all (pending_files.h), the .bin
-/// before the .gltf that refers to it.
+/// that holds something else is overwritten by that. Files appear whole or not at all (pending_files.h): the .bin
+/// first, under a name that depends on what it holds, then the .gltf that refers to it; so an old output stays whole
+/// until the new one is. What then is left of the old one is removed (old_bins.h).
 Result<Done> write_gltf(Document document, const BufferBuilder& added, const std::filesystem::path& output);
 
 }  // namespace gltf_radiosity

@@ -235,6 +235,8 @@ void add_output_options(CLI::App& app, CommandLine& line) {
       ->excludes(exposure);
   add_style(app, options);
   add_compression(app, options);
+  app.add_flag_callback(
+      "--force", [&options] { options.force = true; }, "OUT may replace IN, or a buffer or image of it (default: off)");
   add_json_option(app, line.json);
   add_progress_option(app, line.progress);
 }
@@ -276,7 +278,7 @@ struct Parser {
     app.formatter(std::make_shared<HelpFormatter>());
     app.footer(std::string(kHelpFooter));
     add_files(app, line);
-    add_scene_option(app, line.options);
+    add_input_options(app, line.options);
     add_mesh_options(app, line.options);
     add_node_options(app, line.options);
     add_light_options(app, line.options);
@@ -299,7 +301,9 @@ void finish(Parser& parser) {
   // The report must not replace the scene
   const CommandLine& line = parser.line;
   if (line.input.empty() || line.output.empty()) throw CLI::ValidationError("IN and OUT must not be empty");
-  if (line.json != "-") check_that_differs("--json", line.json, std::array{line.input, line.output});
+  if (line.json == "-") return;
+  check_that_differs("--json", line.json, std::array{line.input, line.output});
+  options.also_written.push_back(line.json);
 }
 
 /// Gives --draco its number where it has none: CLI11 would take the next argument for it, which may be a file.

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <functional>
 #include <iostream>
 #include <optional>
 #include <span>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "plugin/gltf_radiosity.h"
+#include "plugin/pending_files.h"
 #include "plugin/verify.h"
 #include "plugin/view.h"
 #include "tools/batch.h"
@@ -24,6 +26,7 @@
 #include "tools/report_file.h"
 #include "tools/verify_command.h"
 #include "tools/view_command.h"
+#include "tools/watchdog.h"
 
 namespace gltf_radiosity::tools {
 namespace {
@@ -48,6 +51,14 @@ int report_to_programs(const std::string& file, std::string_view json, int exit_
   return exit_code == kExitDone ? kExitCannotWrite : exit_code;
 }
 
+/// Says what went wrong, to people and to programs; answers the exit code.
+int report_failure(const Error& error, const std::string& file) {
+  print(stderr, error_line(error.text()));
+  const int exit_code = exit_code_of(error.code, interrupted_by());
+  const bool is_forbidden = error.code == ErrorCode::kBadOption && error.place == file;  // it is the input's own
+  return is_forbidden ? exit_code : report_to_programs(file, to_json(error), exit_code);
+}
+
 /// `progress` must outlive them.
 Callbacks callbacks_of(ProgressBar& progress) {
   Callbacks callbacks;
@@ -56,17 +67,29 @@ Callbacks callbacks_of(ProgressBar& progress) {
   return callbacks;
 }
 
+/// What is done when a signal asked to stop and nobody does: `files` are what is being written, reports go to `json`.
+std::function<void()> last_words(const std::vector<std::string>& files, const std::string& json) {
+  return [files, json] {
+    for (const std::string& file : files) {
+      if (!file.empty()) remove_own_temporaries(file);
+    }
+    report_failure({ErrorCode::kCancelled, "", "cancelled"}, json);
+  };
+}
+
 int bake_as_asked(const CommandLine& line) {
   // Bake, with a display that is gone before anything else is printed
   const auto start = std::chrono::steady_clock::now();
   ProgressBar progress(resolve(line.progress), standard_error());
-  const Result<Report> result = bake_file(line.input, line.output, line.options, callbacks_of(progress));
+  const Result<Report> result = [&] {
+    const Watchdog watchdog(last_words({line.output}, line.json));
+    return bake_file(line.input, line.output, line.options, callbacks_of(progress));
+  }();
 
   // What went wrong
   if (!result) {
     progress.abandon();
-    print(stderr, error_line(result.error().text()));
-    return report_to_programs(line.json, to_json(result.error()), exit_code_of(result.error().code, interrupted_by()));
+    return report_failure(result.error(), line.json);
   }
 
   // What was done
@@ -104,13 +127,13 @@ int batch_as_asked(const CommandLine& line) {
 int verify_as_asked(const VerifyCommand& command) {
   // Verify
   ProgressBar progress(resolve(command.progress), standard_error());
-  const Result<VerifyReport> result =
-      verify_files(command.input, command.output, command.options, callbacks_of(progress));
+  const Result<VerifyReport> result = [&] {
+    const Watchdog watchdog(last_words({command.options.image}, command.json));
+    return verify_files(command.input, command.output, command.options, callbacks_of(progress));
+  }();
   if (!result) {
     progress.abandon();
-    print(stderr, error_line(result.error().text()));
-    return report_to_programs(command.json, to_json(result.error()),
-                              exit_code_of(result.error().code, interrupted_by()));
+    return report_failure(result.error(), command.json);
   }
 
   // The result, and whether it is good enough

@@ -1,13 +1,14 @@
 #include "tools/report_file.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
+
+#include "plugin/pending_files.h"
 
 namespace gltf_radiosity::tools {
 namespace {
@@ -54,26 +55,21 @@ int write_all(std::FILE* file, std::string_view text) {
   return written ? 0 : errno != 0 ? errno : EIO;
 }
 
-int write_file(const fs::path& path, std::string_view text) {
+/// Into a device or a pipe.
+int write_through(const std::string& path, std::string_view text) {
   std::FILE* const file = std::fopen(path.c_str(), "wb");
   if (file == nullptr) return errno;
-  int failure = write_all(file, text);
-  if (failure == 0 && fsync(fileno(file)) != 0 && errno != EINVAL && errno != EROFS) failure = errno;
-  if (std::fclose(file) != 0 && failure == 0) failure = errno;
-  return failure;
+  const int failure = write_all(file, text);
+  return std::fclose(file) != 0 && failure == 0 ? errno : failure;
 }
 
-/// Written beside and renamed. A link stays a link; devices and pipes cannot be replaced, so they are written to.
-int replace_file(const std::string& name, std::string_view text) {
-  std::error_code ignored;
-  const fs::path target = fs::is_symlink(name, ignored) ? fs::weakly_canonical(name, ignored) : fs::path(name);
-  if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored)) return write_file(target, text);
-
-  const fs::path beside = fmt::format("{}.{}.part", target.string(), getpid());
-  int failure = write_file(beside, text);
-  if (failure == 0 && std::rename(beside.c_str(), target.c_str()) != 0) failure = errno;
-  if (failure != 0) fs::remove(beside, ignored);
-  return failure;
+std::optional<std::string> replace_file(const std::string& path, std::string_view text) {
+  const fs::path folder = fs::path(path).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder)) return path + ": the folder does not exist";
+  PendingFiles files(path);
+  auto done = files.add(path, text);
+  if (done) done = files.commit();
+  return done ? std::nullopt : std::optional(done.error().text());
 }
 
 }  // namespace
@@ -104,7 +100,10 @@ std::string to_json(const Error& error) {
 
 std::optional<std::string> write_report(const std::string& path, std::string_view json) {
   const std::string text = std::string(json) + "\n";
-  const int failure = path == "-" ? write_all(stdout, text) : replace_file(path, text);
+  std::error_code ignored;
+  const bool is_file = path != "-" && (!fs::exists(path, ignored) || fs::is_regular_file(path, ignored));
+  if (is_file) return replace_file(path, text);
+  const int failure = path == "-" ? write_all(stdout, text) : write_through(path, text);
   if (failure == 0) return std::nullopt;
   return fmt::format("{}: {}", path == "-" ? "stdout" : path, std::strerror(failure));
 }

@@ -67,7 +67,7 @@ CLI::Option* add_repeated(CLI::App& app, const OptionText& text, const std::func
       ->allow_extra_args(false);
 }
 
-void add_scene_option(CLI::App& app, Options& options) {
+void add_input_options(CLI::App& app, Options& options) {
   app.option_defaults()->group("Input");
   add(app,
       {"--scene", "N|auto", "auto",
@@ -77,6 +77,10 @@ void add_scene_option(CLI::App& app, Options& options) {
         options.scene.reset();
         if (text != "auto") options.scene = static_cast<std::uint32_t>(parse_integer(text, 0, 1'000'000'000));
       });
+  app.add_flag_callback(
+      "--allow-outside", [&options] { options.allow_outside = true; },
+      "Buffers and images of a .gltf may lie outside its folder: absolute paths, .. and links that lead out "
+      "(default: off)");
 }
 
 void add_light_options(CLI::App& app, Options& options) {

@@ -36,7 +36,7 @@ void add_choice(CLI::App& app, const std::string& name, const std::string& descr
 
 // Options refer to what they fill: it must outlive `app`.
 
-void add_scene_option(CLI::App& app, Options& options);
+void add_input_options(CLI::App& app, Options& options);
 void add_light_options(CLI::App& app, Options& options);
 void add_threads_option(CLI::App& app, Options& options);
 void add_json_option(CLI::App& app, std::string& json);

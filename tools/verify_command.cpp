@@ -98,7 +98,7 @@ struct VerifyParser {
     app.formatter(std::make_shared<HelpFormatter>());
     app.footer(std::string(kVerifyFooter));
     add_files(app, command);
-    add_scene_option(app, command.options.bake);
+    add_input_options(app, command.options.bake);
     add_sampling_options(app, command);
     add_light_options(app, command.options.bake);
     add_picture_options(app, command.options);
@@ -110,10 +110,11 @@ struct VerifyParser {
   VerifyParser& operator=(const VerifyParser&) = delete;
 };
 
-void finish_verify(const VerifyCommand& command) {
+void finish_verify(VerifyCommand& command) {
   if (command.input.empty() || command.output.empty()) throw CLI::ValidationError("IN and OUT must not be empty");
-  const std::array scenes{command.input, command.output};
-  if (command.json != "-") check_that_differs("--json", command.json, scenes);
+  if (command.json == "-") return;
+  check_that_differs("--json", command.json, std::array{command.input, command.output});
+  command.options.bake.also_written.push_back(command.json);
 }
 
 }  // namespace

@@ -216,8 +216,35 @@ TEST_F(DocumentFiles, BuffersMayNotLieOutside) {
     EXPECT_THAT(verdict(read_with_buffer(uri)), HasSubstr("lies outside the glTF's folder")) << uri;
   }
   std::filesystem::create_symlink(root_ / "outside.bin", root_ / "inside/link.bin");
-  EXPECT_EQ(verdict(read_with_buffer("link.bin")), "buffers[0]: \"link.bin\" lies outside the glTF's folder");
+  EXPECT_EQ(verdict(read_with_buffer("link.bin")),
+            "buffers[0]: \"link.bin\" lies outside the glTF's folder (--allow-outside)");
   EXPECT_THAT(verdict(read_with_buffer("file:///etc/passwd")), HasSubstr("is not a file beside the glTF"));
+}
+
+TEST_F(DocumentFiles, BuffersMayLieOutsideIfTheUserSaysSo) {
+  write("outside.bin", square().buffer());
+  std::filesystem::create_symlink(root_ / "outside.bin", root_ / "inside/link.bin");
+  for (const std::string& uri :
+       {std::string("../outside.bin"), std::string("link.bin"), (root_ / "outside.bin").string()}) {
+    EXPECT_FALSE(read_with_buffer(uri)) << uri;
+    EXPECT_EQ(verdict(read_document(root_ / "inside/scene.gltf", {.allow_outside = true})), "fine") << uri;
+  }
+  EXPECT_FALSE(read_with_buffer("http://localhost/outside.bin"));
+  EXPECT_THAT(verdict(read_document(root_ / "inside/scene.gltf", {.allow_outside = true})),
+              HasSubstr("is not a file beside the glTF"));
+}
+
+TEST_F(DocumentFiles, WhatTheUserWillWriteIsNotRead) {
+  write("inside/x.bin", square().buffer());
+  ASSERT_TRUE(read_with_buffer("x.bin"));
+  std::filesystem::create_hard_link(root_ / "inside/x.bin", root_ / "same.bin");
+  for (const char* name : {"inside/x.bin", "inside/scene.gltf", "same.bin"}) {
+    const std::string written = root_ / name;
+    EXPECT_EQ(verdict(read_document(root_ / "inside/scene.gltf", {.spared_by = {written}})),
+              written + ": would replace the input or a file that it refers to");
+  }
+  EXPECT_EQ(verdict(read_document(root_ / "inside/scene.gltf", {.spared_by = {"", root_ / "inside/out.gltf"}})),
+            "fine");
 }
 
 TEST_F(DocumentFiles, MissingFilesAreNamed) {
