@@ -105,7 +105,23 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
                                                      : 0);
   std::vector<Rgb> direct = direct_on_patches(direct_light, patches, progress, group_direct);
   add_sky(sky_on_patches(sky, rows, progress), scene, direct, group_direct);
-  const SolveProblem problem{patches, direct, options.residual};
+  const auto gatherer_of = [&](std::span<const Rgb> sent, SampleLog* log) {
+    return Gatherer{scene,
+                    patches,
+                    sample_hemicube,
+                    *items,
+                    direct_light,
+                    sky,
+                    sent,
+                    surface_offset(scene),
+                    options.parts != LightParts::kIndirect,
+                    options.show_reached_side,
+                    log};
+  };
+  constexpr double kSpare = 1.25;  // not every sample takes as long as those tried
+  const std::vector<Rgb> dark(patches.patch_count(), Rgb(0.0F));
+  const double gathering = kSpare * seconds_to_gather(display.mesh(), gatherer_of(dark, nullptr), {}, progress);
+  const SolveProblem problem{patches, direct, options.residual, gathering};
   const Solution solution = options.solver == Solver::kGathering ? solve_gathering(problem, rows, progress)
                                                                  : solve_progressive(problem, rows, progress);
 
@@ -117,17 +133,7 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
     const std::uint32_t sweeps = solution.steps / std::max(1U, patches.patch_count());
     log = make_log(scene, patches, group_direct, sweeps, options.parts, rows, progress);
   }
-  const Gatherer gatherer{scene,
-                          patches,
-                          sample_hemicube,
-                          *items,
-                          direct_light,
-                          sky,
-                          sent,
-                          surface_offset(scene),
-                          options.parts != LightParts::kIndirect,
-                          options.show_reached_side,
-                          options.light_groups ? &log : nullptr};
+  const Gatherer gatherer = gatherer_of(sent, options.light_groups ? &log : nullptr);
   Reconstruction light = reconstruct(display, gatherer, options.fit, options.adapt, progress);
   if (options.light_groups) result.group_irradiance = light_of_groups(scene, display, log, light, options.fit);
 
@@ -141,6 +147,7 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
   result.report.estimated_error = light.estimated_error;
   result.report.refine_rounds = light.rounds;
   result.report.refine_end = light.end;
+  result.report.out_of_time = solution.out_of_time || light.end == RefineEnd::kTime;
 
   result.irradiance = std::move(light.irradiance);
   result.mesh = finish(std::move(display), scene);

@@ -63,6 +63,7 @@ struct BakeReport {
   double glow_share = 0.0;                      ///< of the emitted flux: what is left to hemicubes, [0,1]
   double reflectance_clamped_area = 0.0;        ///< m2 whose reflectance was above kMaxReflectance
   bool reached_element_limit = false;
+  bool out_of_time = false;      ///< the time was over before the light was solved or the mesh fine enough
   double estimated_error = 0.0;  ///< of the light that is displayed, relative RMSE
   std::uint32_t refine_rounds = 0;
   RefineEnd refine_end = RefineEnd::kNotAdaptive;
@@ -80,7 +81,8 @@ struct Bake {
 };
 
 /// Computes the light of a valid scene (validate()). Same scene and options give the same bytes for any number of
-/// threads. Throws `Cancelled` when `progress` says so and std::bad_alloc when memory runs out.
+/// threads, unless the time is limited. Throws `Cancelled` when `progress` says so, `OutOfTime` when the time is not
+/// enough for any light, and std::bad_alloc when memory runs out.
 Bake bake(const Scene& scene, const BakeOptions& options, const Progress& progress);
 
 }  // namespace radiosity

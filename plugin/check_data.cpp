@@ -10,8 +10,8 @@
 namespace gltf_radiosity {
 namespace {
 
-/// Accessors without data cost nothing in the file but memory here: 2^24 elements are enough.
-constexpr std::uint64_t kMaxEmptyCount = std::uint64_t{1} << 24;
+/// Accessors without data cost nothing in the file; no more than this can be told apart by indices.
+constexpr std::uint64_t kMaxEmptyCount = std::uint64_t{1} << 32;
 
 struct AttributeRule {
   std::string_view name;        ///< a set number may follow

@@ -56,6 +56,7 @@ Result<Done> check_options(const Options& options) {
     return refuse("--max-memory", "must be at least 64M");
   }
   if (options.threads < 0) return refuse("--threads", "must not be negative");
+  if (!is_finite_and_at_least(options.time_limit, 0.0)) return refuse("--time-limit", "must not be negative");
 
   // Output.
   if (options.exposure && !(is_finite_and_at_least(*options.exposure, 0.0) && *options.exposure > 0.0)) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <system_error>
 
+#include "plugin/accessor_view.h"
 #include "plugin/check_document.h"
 #include "plugin/draco_codec.h"
 #include "plugin/meshopt_decode.h"
@@ -66,12 +67,18 @@ Result<Container> open_glb(ByteSpan bytes) {
   return container;
 }
 
-/// Whether brackets are nested deeper than kMaxDepth. (nlohmann's parser callback knows the depth too, but it looks at
-/// all siblings after each object: 10,000 nodes took a second.)
-bool is_too_deep(ByteSpan text) {
+/// What a text holds, as far as it shows without parsing it. (nlohmann's parser callback knows the depth too, but it
+/// looks at all siblings after each object: 10,000 nodes took a second.)
+struct JsonShape {
+  bool is_too_deep = false;       ///< brackets are nested deeper than kMaxDepth
+  std::uint64_t value_count = 1;  ///< at most
+};
+
+JsonShape shape_of(ByteSpan text) {
+  JsonShape shape;
   int depth = 0;
   bool in_string = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
+  for (std::size_t i = 0; i < text.size() && !shape.is_too_deep; ++i) {
     const std::uint8_t character = text[i];
     if (in_string) {
       if (character == '\\') ++i;
@@ -79,18 +86,27 @@ bool is_too_deep(ByteSpan text) {
     } else if (character == '"') {
       in_string = true;
     } else if (character == '[' || character == '{') {
-      if (++depth > kMaxDepth) return true;
+      shape.is_too_deep = ++depth > kMaxDepth;
+      ++shape.value_count;
     } else if (character == ']' || character == '}') {
       --depth;
+    } else if (character == ',' || character == ':') {
+      ++shape.value_count;
     }
   }
-  return false;
+  return shape;
 }
 
-Result<Json> parse_json(ByteSpan text) {
+/// What a value costs at most: in the tree, in the copy for tinygltf and in what that makes of it.
+constexpr std::uint64_t kBytesPerJsonValue = 256;
+
+Result<Json> parse_json(ByteSpan text, MemoryBudget& memory) {
   // Some writers pad the JSON chunk with zeros, which is not JSON.
   while (!text.empty() && text.back() == 0) text = text.first(text.size() - 1);
-  if (is_too_deep(text)) return bad_input("JSON", fmt::format("is nested deeper than {} levels", kMaxDepth));
+  const JsonShape shape = shape_of(text);
+  if (shape.is_too_deep) return bad_input("JSON", fmt::format("is nested deeper than {} levels", kMaxDepth));
+  if (auto fits = memory.reserve(shape.value_count, kBytesPerJsonValue, "JSON", "values"); !fits) return fits.error();
+  if (auto fits = memory.reserve(text.size(), 2, "JSON", "characters"); !fits) return fits.error();
   try {
     return Json::parse(text.begin(), text.end());
   } catch (const nlohmann::json::parse_error& error) {
@@ -111,16 +127,34 @@ Result<Done> load_buffers(Document& document, std::optional<ByteSpan> bin) {
       continue;
     }
     if (buffers[i].contains("uri")) {
+      document.folder.max_bytes = document.memory->left();
       Result<Bytes> read = read_uri(buffers[i]["uri"].get<std::string>(), document.folder, place);
       if (!read) return read.error();
       bytes = std::move(*read);
     } else if (i == 0 && bin) {
+      if (auto fits = document.memory->check(bin->size(), 1, place, "bytes"); !fits) return fits;
       bytes.assign(bin->begin(), bin->end());
     } else if (length > 0) {
       return bad_input(place, "has neither a uri nor a binary chunk");
     }
     if (bytes.size() < length) return bad_input(place, fmt::format("says {} bytes but has {}", length, bytes.size()));
+    if (auto fits = document.memory->reserve(bytes.size(), 1, place, "bytes"); !fits) return fits;
     document.buffers.push_back(std::move(bytes));
+  }
+  return Done{};
+}
+
+/// Accessors without data take nothing in the file. Each must fit; what a scene makes of them is counted as it is read.
+Result<Done> check_empty_accessors(const Document& document) {
+  const Json& accessors = array_of(document.json, "accessors");
+  for (std::size_t i = 0; i < accessors.size(); ++i) {
+    if (accessors[i].contains("bufferView")) continue;
+    const auto layout =
+        element_layout(accessors[i]["type"].get<std::string>(), accessors[i]["componentType"].get<std::uint64_t>());
+    const auto count = accessors[i]["count"].get<std::uint64_t>();
+    if (auto fits = document.memory->check(count, 2 * layout->size, place_of("accessors", i), "elements"); !fits) {
+      return fits;
+    }
   }
   return Done{};
 }
@@ -158,9 +192,11 @@ Result<Document> make_document(ByteSpan bytes, const InputFolder& folder, const 
   }
 
   // Tree.
-  Result<Json> json = parse_json(container.json);
-  if (!json) return json.error();
   Document document;
+  document.memory = std::make_shared<MemoryBudget>(options.max_memory);
+  if (auto fits = document.memory->reserve(bytes.size(), 1, "", "bytes of the file"); !fits) return fits.error();
+  Result<Json> json = parse_json(container.json, *document.memory);
+  if (!json) return json.error();
   document.json = std::move(*json);
   document.folder = folder;
   if (auto checked = check_structure(document.json); !checked) return checked.error();
@@ -171,6 +207,7 @@ Result<Document> make_document(ByteSpan bytes, const InputFolder& folder, const 
 
   // Data.
   if (auto loaded = load_buffers(document, container.bin); !loaded) return loaded.error();
+  if (auto fits = check_empty_accessors(document); !fits) return fits.error();
   if (auto decoded = decode_meshopt(document); !decoded) return decoded.error();
   if (auto checked = check_sparse_indices(document); !checked) return checked.error();
   if (auto checked = check_image_files(document); !checked) return checked.error();
@@ -182,16 +219,16 @@ Result<Document> make_document(ByteSpan bytes, const InputFolder& folder, const 
 
 Result<Document> read_document(const std::filesystem::path& file, const ReadOptions& options) {
   if (auto spared = check_that_inputs_are_spared(std::array{file}, options.spared_by); !spared) return spared.error();
-  const Result<Bytes> bytes = read_file(file, "", options.max_bytes);
+  const Result<Bytes> bytes = read_file(file, "", options.max_memory);
   if (!bytes) return bytes.error();
   std::error_code error;
-  InputFolder folder(std::filesystem::absolute(file, error).parent_path(), options.allow_outside);
-  folder.max_bytes = options.max_bytes;
+  const InputFolder folder(std::filesystem::absolute(file, error).parent_path(), options.allow_outside);
   return make_document(*bytes, folder, options);
 }
 
-Result<Document> read_document(std::span<const std::uint8_t> bytes, const InputFolder& folder) {
-  return make_document(bytes, folder, {});
+Result<Document> read_document(std::span<const std::uint8_t> bytes, const InputFolder& folder,
+                               const ReadOptions& options) {
+  return make_document(bytes, folder, options);
 }
 
 std::string place_of(std::string_view array, std::size_t index) { return fmt::format("{}[{}]", array, index); }

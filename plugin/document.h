@@ -16,6 +16,7 @@
 
 #include "plugin/gltf_radiosity.h"
 #include "plugin/input_folder.h"
+#include "plugin/memory_budget.h"
 #include "plugin/result.h"
 
 namespace tinygltf {  // renamed to gr_tinygltf by a compile definition (cmake/dependencies.cmake)
@@ -39,19 +40,21 @@ struct Document {
   std::vector<Bytes> buffers;
   InputFolder folder;
   std::vector<Warning> warnings;
+  std::shared_ptr<MemoryBudget> memory = std::make_shared<MemoryBudget>();  ///< what its data and its scene may take
 };
 
 /// How a document is read.
 struct ReadOptions {
-  bool allow_outside = false;          ///< the files it names may lie outside its folder
-  std::vector<std::string> spared_by;  ///< files that will be written: an error if the document needs one of them
-  std::uint64_t max_bytes = kAnySize;  ///< of each file
+  bool allow_outside = false;            ///< the files it names may lie outside its folder
+  std::vector<std::string> spared_by{};  ///< files that will be written: an error if the document needs one of them
+  std::uint64_t max_memory = kAnySize;   ///< bytes
 };
 
 /// Reads a .glb or .gltf (told apart by content). External buffers are read; the paths of buffers and images must stay
 /// in the file's folder or below, unless allowed otherwise. Errors name the place, `accessors[3]`.
 Result<Document> read_document(const std::filesystem::path& file, const ReadOptions& options = {});
-Result<Document> read_document(std::span<const std::uint8_t> bytes, const InputFolder& folder);
+Result<Document> read_document(std::span<const std::uint8_t> bytes, const InputFolder& folder,
+                               const ReadOptions& options = {});
 
 /// The document as tinygltf types: materials, textures, samplers, nodes, meshes, accessors, lights. Buffers and images
 /// are left empty in it: read data with accessor_view.h and image_decode.h. Indices agree with the JSON tree.

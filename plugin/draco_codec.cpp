@@ -1,7 +1,10 @@
 #include "plugin/draco_codec.h"
 
 #include <draco/compression/decode.h>
+#include <draco/compression/point_cloud/point_cloud_decoder.h>
+#include <draco/core/varint_decoding.h>
 #include <draco/mesh/mesh.h>
+#include <draco/metadata/metadata_decoder.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +13,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "plugin/accessor_view.h"
@@ -59,6 +63,7 @@ class DracoDecoder {
     if (!primitive.contains("indices")) return bad_input(place, "is compressed with Draco but has no indices");
 
     if (!has_data(primitive, extension, view)) {
+      if (auto fits = check_claim(primitive, blob_in(document_, view), place); !fits) return fits;
       auto mesh = decode_draco_blob(blob_in(document_, view), place);
       if (!mesh) return mesh.error();
       if (auto filled = fill_indices(primitive, **mesh, view, place); !filled) return filled.error();
@@ -102,19 +107,40 @@ class DracoDecoder {
     return all;
   }
 
+  /// Draco takes memory for what its header says: that has to be what the accessors say, and to fit.
+  Result<Done> check_claim(const Json& primitive, std::span<const std::uint8_t> blob, const std::string& place) {
+    constexpr std::uint64_t kBytesPerFace = 160, kBytesPerPoint = 64;
+    const Json& accessors = document_.json["accessors"];
+    const auto count_of = [&accessors](const Json& accessor) {
+      return accessors[accessor.get<std::size_t>()]["count"].get<std::uint64_t>();
+    };
+    std::uint64_t faces = count_of(primitive["indices"]) / 3, points = 0;
+    for (const auto& [name, accessor] : primitive["attributes"].items()) points = std::max(points, count_of(accessor));
+    if (const std::optional<Claim> claim = claim_of(blob)) {
+      if (claim->faces != faces) {
+        return bad_input(place, fmt::format("Draco holds {} indices where the accessor says {}",
+                                            std::uint64_t{claim->faces} * 3, count_of(primitive["indices"])));
+      }
+      points = std::max<std::uint64_t>(points, claim->points);
+    }
+    auto fits = document_.memory->check(faces, kBytesPerFace, place, "triangles");
+    return fits ? document_.memory->check(points, kBytesPerPoint, place, "vertices") : fits;
+  }
+
   /// Makes `reference` an accessor that reads `data`.
-  void attach(Json& reference, const Source& source, const Bytes& data, std::size_t stride, int target) {
+  Result<Done> attach(Json& reference, const Source& source, const Bytes& data, std::size_t stride, int target) {
     // An accessor that holds another blob's data already is cloned.
     auto index = reference.get<std::size_t>();
     Json& accessors = document_.json["accessors"];
     if (const auto filled = filled_.find(index); filled != filled_.end()) {
-      if (filled->second == source) return;
+      if (filled->second == source) return Done{};
       accessors.push_back(Json(accessors[index]));
       index = accessors.size() - 1;
       reference = index;
     }
     filled_[index] = source;
 
+    if (auto fits = document_.memory->reserve(data.size(), 2, "", "bytes of decoded triangles"); !fits) return fits;
     bytes_.resize((bytes_.size() + 3) / 4 * 4);
     Json view = {
         {"buffer", document_.json["buffers"].size()}, {"byteOffset", bytes_.size()}, {"byteLength", data.size()}};
@@ -125,6 +151,7 @@ class DracoDecoder {
     accessors[index].erase("byteOffset");
     accessors[index].erase("sparse");
     accessors[index]["bufferView"] = document_.json["bufferViews"].size() - 1;
+    return Done{};
   }
 
   Result<Done> fill_indices(Json& primitive, const draco::Mesh& mesh, std::uint64_t view, const std::string& place) {
@@ -146,8 +173,7 @@ class DracoDecoder {
         to += size;
       }
     }
-    attach(primitive["indices"], {view, kIndices}, data, 0, 34963);
-    return Done{};
+    return attach(primitive["indices"], {view, kIndices}, data, 0, 34963);
   }
 
   Result<Done> fill_attribute(Json& reference, const draco::Mesh& mesh, const Source& source,
@@ -173,14 +199,41 @@ class DracoDecoder {
     if (!copy_draco_values(mesh, *attribute, layout->component, stride, data)) {
       return bad_input(place, fmt::format("Draco attribute {} does not fit accessors[{}]", source.id, index));
     }
-    attach(reference, source, data, stride == layout->size ? 0 : stride, 34962);
-    return Done{};
+    return attach(reference, source, data, stride == layout->size ? 0 : stride, 34962);
   }
 
   Document& document_;
   std::map<std::size_t, Source> filled_;
   Bytes bytes_;
 };
+
+/// The faces and points that a blob says it holds, which its accessors repeat; none where it cannot be read. (Formats
+/// from 2.2 on, since 2018; earlier ones say the same elsewhere.)
+struct Claim {
+  std::uint32_t faces = 0, points = 0;
+};
+std::optional<Claim> claim_of(std::span<const std::uint8_t> blob) {
+  constexpr std::uint16_t kBitstream22 = DRACO_BITSTREAM_VERSION(2, 2);
+  draco::DecoderBuffer buffer;
+  buffer.Init(reinterpret_cast<const char*>(blob.data()), blob.size());
+  draco::DracoHeader header{};
+  if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok()) return std::nullopt;
+  if (DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor) < kBitstream22) return std::nullopt;
+  buffer.set_bitstream_version(DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor));
+  if ((header.flags & METADATA_FLAG_MASK) != 0) {
+    draco::GeometryMetadata skipped;
+    if (!draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &skipped)) return std::nullopt;
+  }
+  Claim claim;
+  if (header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING) {
+    const bool read = draco::DecodeVarint(&claim.faces, &buffer) && draco::DecodeVarint(&claim.points, &buffer);
+    return read ? std::optional(claim) : std::nullopt;
+  }
+  std::uint8_t traversal = 0;
+  const bool read = buffer.Decode(&traversal) && draco::DecodeVarint(&claim.points, &buffer) &&
+                    draco::DecodeVarint(&claim.faces, &buffer);
+  return read ? std::optional(claim) : std::nullopt;
+}
 
 }  // namespace
 

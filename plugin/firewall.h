@@ -16,6 +16,8 @@ auto behind_firewall(const Work& work) -> decltype(work()) {
     return work();
   } catch (const radiosity::Cancelled&) {
     return Error{ErrorCode::kCancelled, "", "cancelled"};
+  } catch (const radiosity::OutOfTime&) {
+    return Error{ErrorCode::kLimit, "--time-limit", "there is not enough time for any light, so nothing is written"};
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::kLimit, "", "not enough memory"};
   } catch (const std::exception& exception) {

@@ -1,7 +1,5 @@
 #include "plugin/gltf_radiosity.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstring>
 #include <utility>
@@ -16,6 +14,7 @@
 #include "plugin/firewall.h"
 #include "plugin/import_scene.h"
 #include "plugin/make_report.h"
+#include "plugin/memory_budget.h"
 #include "plugin/phases.h"
 #include "plugin/strip_lights.h"
 #include "plugin/write_gltf.h"
@@ -62,7 +61,12 @@ radiosity::Visibility visibility_of(VisibilityMethod method) {
 /// What an element costs at most: its place in the mesh, its samples and its share of the fit.
 constexpr std::uint64_t kBytesPerElement = 512;
 
-radiosity::BakeOptions bake_options(const Options& options, const ImportedScene& scene, double patch_size) {
+std::uint64_t max_memory_of(const Options& options) {
+  return options.max_memory > 0 ? options.max_memory : default_max_memory();
+}
+
+radiosity::BakeOptions bake_options(const Options& options, const ImportedScene& scene, double patch_size,
+                                    const MemoryBudget& memory) {
   radiosity::BakeOptions result;
   result.subdivide.patch_size = static_cast<float>(patch_size);
   result.subdivide.level_of_triangle = scene.level_of_triangle;
@@ -80,9 +84,9 @@ radiosity::BakeOptions bake_options(const Options& options, const ImportedScene&
   result.solver =
       options.solver == SolverMethod::kGathering ? radiosity::Solver::kGathering : radiosity::Solver::kProgressive;
   result.fit = options.fit == FitMethod::kInterpolate ? radiosity::Fit::kInterpolate : radiosity::Fit::kLeastSquares;
-  const std::uint64_t memory = options.max_memory > 0 ? options.max_memory : default_max_memory();
-  result.row_cache_bytes = static_cast<std::size_t>(memory / 2);
-  result.subdivide.max_elements = std::min<std::size_t>(result.subdivide.max_elements, memory / 4 / kBytesPerElement);
+  result.row_cache_bytes = static_cast<std::size_t>(memory.left() / 2);
+  result.subdivide.max_elements =
+      std::min<std::size_t>(result.subdivide.max_elements, memory.left() / 4 / kBytesPerElement);
   result.parts = parts_of(options.bake);
   result.show_reached_side = options.two_sided == TwoSided::kLit;
   result.residual = static_cast<float>(options.residual);
@@ -116,7 +120,7 @@ Result<Report> bake_document(Document& document, BufferBuilder& added, const Opt
   // Bake.
   report.patch_size = patch_size_of(options, *scene);
   const radiosity::Bake bake =
-      radiosity::bake(scene->scene, bake_options(options, *scene, report.patch_size), progress);
+      radiosity::bake(scene->scene, bake_options(options, *scene, report.patch_size, *document.memory), progress);
   add_figures(bake.report, report);
   add_warnings(bake.report, report.warnings);
 
@@ -137,7 +141,7 @@ Result<Report> bake_document(Document& document, BufferBuilder& added, const Opt
 template <typename Read, typename Write>
 Result<Report> bake_between(const Read& read, const Write& write, const Options& options, const Callbacks& callbacks) {
   // Read.
-  Phases phases(callbacks);
+  Phases phases(callbacks, options.time_limit);
   const radiosity::Progress& progress = phases.progress();
   progress.update("read", 0.0);
   Result<Document> document = read();
@@ -176,7 +180,7 @@ Result<Report> bake_file(const std::string& input, const std::string& output, co
     if (const auto checked = check_output(output); !checked) return checked.error();
     std::vector<std::string> outputs = options.also_written;
     if (!options.force) outputs.push_back(output);
-    const auto read = [&] { return read_document(input, {options.allow_outside, outputs}); };
+    const auto read = [&] { return read_document(input, {options.allow_outside, outputs, max_memory_of(options)}); };
     const auto write = [&](Document document, const BufferBuilder& added) {
       return write_gltf(std::move(document), added, output);
     };
@@ -189,7 +193,9 @@ Result<BakedGlb> bake_memory(std::span<const std::byte> input, const Options& op
     if (const auto checked = check_options(options); !checked) return checked.error();
     BakedGlb baked;
     const auto read = [&] {
-      return read_document(std::span(reinterpret_cast<const std::uint8_t*>(input.data()), input.size()), {});
+      ReadOptions reading;
+      reading.max_memory = max_memory_of(options);
+      return read_document(std::span(reinterpret_cast<const std::uint8_t*>(input.data()), input.size()), {}, reading);
     };
     const auto write = [&](Document document, const BufferBuilder& added) -> Result<Done> {
       const Result<Bytes> glb = to_glb(std::move(document), added);

@@ -79,6 +79,10 @@ struct Options {
   /// the machine's memory.
   std::uint64_t max_memory = 0;
   int threads = 0;  ///< 0: every core
+  /// Seconds after which the bake ends with the light it has by then; the mesh is refined and the light exchanged no
+  /// further. The bytes then depend on the machine. 0: as many as it takes. What cannot be done any faster, as reading
+  /// and writing, may take longer; if there is no light by then, the bake fails with ErrorCode::kLimit.
+  double time_limit = 0.0;
   // Output
   std::optional<double> exposure;       ///< k, m2/cd; none chooses automatically
   Engine engine = Engine::kAny;         ///< chooses where the next two say nothing
@@ -135,16 +139,17 @@ struct Report {
   double residual = 0.0;
   double estimated_error = 0.0;  ///< of the baked light: root mean square over mean luminance
   std::uint64_t refine_rounds = 0;
-  std::string refine_end;          ///< why refinement ended: "error", "limit", "floor"; empty where it was not adaptive
-  double emitted_flux = 0.0;       ///< lm
-  double absorbed_flux = 0.0;      ///< lm
-  double escaped_flux = 0.0;       ///< lm
-  double closure_error = 0.0;      ///< largest difference of a row of form factors from 1
-  double reciprocity_error = 0.0;  ///< mean |A_i F_ij - A_j F_ji| over mean A_i F_ij
-  std::uint64_t lamps = 0;         ///< parts of emissive triangles that get shadow rays
-  double glow_share = 0.0;         ///< of the emitted light: what gets none, [0,1]
-  double exposure = 1.0;           ///< k, m2/cd
-  double clipped_share = 0.0;      ///< of the baked area
+  std::string refine_end;  ///< why refinement ended: "error", "limit", "floor", "time"; empty where it was not adaptive
+  bool time_limit_reached = false;    ///< the light is what there was when time was up
+  double emitted_flux = 0.0;          ///< lm
+  double absorbed_flux = 0.0;         ///< lm
+  double escaped_flux = 0.0;          ///< lm
+  double closure_error = 0.0;         ///< largest difference of a row of form factors from 1
+  double reciprocity_error = 0.0;     ///< mean |A_i F_ij - A_j F_ji| over mean A_i F_ij
+  std::uint64_t lamps = 0;            ///< parts of emissive triangles that get shadow rays
+  double glow_share = 0.0;            ///< of the emitted light: what gets none, [0,1]
+  double exposure = 1.0;              ///< k, m2/cd
+  double clipped_share = 0.0;         ///< of the baked area
   std::uint64_t baked_triangles = 0;  ///< of output_triangles: those that received light
   std::string light;                  ///< "both", "direct" or "indirect"
   std::string color_type;             ///< "float", "u16" or "u8"

@@ -48,7 +48,7 @@ bool is_light(const radiosity::Rgb& v) {
 
 }  // namespace
 
-Result<HdrImage> decode_hdr(std::span<const std::uint8_t> bytes, const std::string& place) {
+Result<HdrImage> decode_hdr(std::span<const std::uint8_t> bytes, const std::string& place, const MemoryBudget& memory) {
   // What the header says.
   HdrImage image;
   int bands = 0;
@@ -61,7 +61,10 @@ Result<HdrImage> decode_hdr(std::span<const std::uint8_t> bytes, const std::stri
     return bad_input(place, fmt::format("the HDR image is larger than {} x {}", kMaxHdrWidth, kMaxHdrHeight));
   }
 
-  // Its pixels.
+  // Its pixels, for a moment twice.
+  constexpr std::uint64_t kBytesPerTexel = 2 * sizeof(radiosity::Rgb) + 4;
+  const auto texel_count = static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
+  if (const auto fits = memory.check(texel_count, kBytesPerTexel, place, "pixels"); !fits) return fits.error();
   Source source{bytes};
   const std::unique_ptr<float, void (*)(void*)> pixels(
       stbi_loadf_from_callbacks(&kCallbacks, &source, &image.width, &image.height, &bands, 3), stbi_image_free);

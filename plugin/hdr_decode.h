@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/rgb.h"
+#include "plugin/memory_budget.h"
 #include "plugin/result.h"
 
 namespace gltf_radiosity {
@@ -20,7 +21,9 @@ struct HdrImage {
 /// The largest image that is decoded.
 inline constexpr int kMaxHdrWidth = 16384, kMaxHdrHeight = 8192;
 
-/// `place` goes into errors: a file's name. EXPOSURE and PRIMARIES in the header are not looked at, as in the engines.
-Result<HdrImage> decode_hdr(std::span<const std::uint8_t> bytes, const std::string& place);
+/// `place` goes into errors: a file's name. More pixels than fit into what is left of `memory` are a limit. EXPOSURE
+/// and PRIMARIES in the header are not looked at, as in the engines.
+Result<HdrImage> decode_hdr(std::span<const std::uint8_t> bytes, const std::string& place,
+                            const MemoryBudget& memory = MemoryBudget());
 
 }  // namespace gltf_radiosity

@@ -17,15 +17,27 @@ namespace {
 
 constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 28;
 
-/// Sizes `pixels`; false if the image is empty or larger than allowed.
-bool allocate(Pixels& pixels, std::uint64_t width, std::uint64_t height) {
-  if (width == 0 || height == 0 || width > kMaxPixels || height > kMaxPixels || width * height > kMaxPixels)
-    return false;
-  pixels.width = static_cast<int>(width);
-  pixels.height = static_cast<int>(height);
-  pixels.rgba.resize(width * height * 4);
-  return true;
-}
+/// What a pixel takes while it is decoded: RGBA, and the coefficients of a progressive JPEG.
+constexpr std::uint64_t kBytesPerPixel = 12;
+
+/// Where an image is decoded to.
+struct Canvas {
+  Pixels pixels;
+  std::uint64_t max_pixels = kMaxPixels;
+  std::uint64_t width = 0, height = 0;  ///< what the file says
+
+  /// Makes room; false if the image is empty or larger than allowed.
+  bool allocate(std::uint64_t said_width, std::uint64_t said_height) {
+    width = said_width;
+    height = said_height;
+    if (width == 0 || height == 0 || is_too_large()) return false;
+    pixels.width = static_cast<int>(width);
+    pixels.height = static_cast<int>(height);
+    pixels.rgba.resize(width * height * 4);
+    return true;
+  }
+  bool is_too_large() const { return width > kMaxPixels || height > kMaxPixels || width * height > max_pixels; }
+};
 
 // PNG. libpng leaves through longjmp, so nothing with a destructor lives in the function that is left.
 
@@ -53,12 +65,13 @@ void expect_rgba(png_structp png, png_infop info) {
   png_read_update_info(png, info);
 }
 
-bool read_png(png_structp png, png_infop info, PngSource& source, Pixels& pixels) {
+bool read_png(png_structp png, png_infop info, PngSource& source, Canvas& canvas) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_read_fn(png, &source, read_png_bytes);
   png_set_user_limits(png, 0x7fffffff, 0x7fffffff);
   png_read_info(png, info);
-  if (!allocate(pixels, png_get_image_width(png, info), png_get_image_height(png, info))) return false;
+  if (!canvas.allocate(png_get_image_width(png, info), png_get_image_height(png, info))) return false;
+  Pixels& pixels = canvas.pixels;
   expect_rgba(png, info);
   const std::size_t row_size = static_cast<std::size_t>(pixels.width) * 4;
   if (png_get_rowbytes(png, info) != row_size) return false;
@@ -72,13 +85,13 @@ bool read_png(png_structp png, png_infop info, PngSource& source, Pixels& pixels
   return true;
 }
 
-bool decode_png(std::span<const std::uint8_t> bytes, Pixels& pixels) {
+bool decode_png(std::span<const std::uint8_t> bytes, Canvas& canvas) {
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, leave_png, ignore_png_warning);
   png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
   PngSource source{bytes};
   bool decoded = false;
   try {
-    decoded = info != nullptr && read_png(png, info, source, pixels);
+    decoded = info != nullptr && read_png(png, info, source, canvas);
   } catch (const std::bad_alloc&) {
     decoded = false;
   }
@@ -112,12 +125,13 @@ void cmyk_to_rgba(std::uint8_t* row, int width, bool inverted) {
   }
 }
 
-bool read_jpeg(jpeg_decompress_struct& jpeg, std::span<const std::uint8_t> bytes, Pixels& pixels) {
+bool read_jpeg(jpeg_decompress_struct& jpeg, std::span<const std::uint8_t> bytes, Canvas& canvas) {
   jpeg_mem_src(&jpeg, bytes.data(), bytes.size());
   if (jpeg_read_header(&jpeg, TRUE) != JPEG_HEADER_OK) return false;
   const bool cmyk = jpeg.jpeg_color_space == JCS_CMYK || jpeg.jpeg_color_space == JCS_YCCK;
   jpeg.out_color_space = cmyk ? JCS_CMYK : JCS_EXT_RGBA;
-  if (!allocate(pixels, jpeg.image_width, jpeg.image_height)) return false;
+  if (!canvas.allocate(jpeg.image_width, jpeg.image_height)) return false;
+  Pixels& pixels = canvas.pixels;
   jpeg_start_decompress(&jpeg);
   if (jpeg.output_components != 4) return false;
   while (jpeg.output_scanline < jpeg.output_height) {
@@ -130,7 +144,7 @@ bool read_jpeg(jpeg_decompress_struct& jpeg, std::span<const std::uint8_t> bytes
   return true;
 }
 
-bool decode_jpeg(std::span<const std::uint8_t> bytes, Pixels& pixels) {
+bool decode_jpeg(std::span<const std::uint8_t> bytes, Canvas& canvas) {
   jpeg_decompress_struct jpeg{};
   JpegErrors errors{};
   jpeg.err = jpeg_std_error(&errors.manager);
@@ -140,7 +154,7 @@ bool decode_jpeg(std::span<const std::uint8_t> bytes, Pixels& pixels) {
   if (setjmp(errors.leave) == 0) {
     jpeg_create_decompress(&jpeg);
     try {
-      decoded = read_jpeg(jpeg, bytes, pixels);
+      decoded = read_jpeg(jpeg, bytes, canvas);
     } catch (const std::bad_alloc&) {
       decoded = false;
     }
@@ -151,14 +165,15 @@ bool decode_jpeg(std::span<const std::uint8_t> bytes, Pixels& pixels) {
 
 // WebP.
 
-bool decode_webp(std::span<const std::uint8_t> bytes, Pixels& pixels) {
+bool decode_webp(std::span<const std::uint8_t> bytes, Canvas& canvas) {
   int width = 0, height = 0;
   if (WebPGetInfo(bytes.data(), bytes.size(), &width, &height) == 0 || width <= 0 || height <= 0) return false;
-  if (!allocate(pixels, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height))) return false;
+  if (!canvas.allocate(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height))) return false;
+  Pixels& pixels = canvas.pixels;
   return WebPDecodeRGBAInto(bytes.data(), bytes.size(), pixels.rgba.data(), pixels.rgba.size(), width * 4) != nullptr;
 }
 
-using Decoder = bool (*)(std::span<const std::uint8_t>, Pixels&);
+using Decoder = bool (*)(std::span<const std::uint8_t>, Canvas&);
 
 struct ImageFormat {
   std::size_t at;
@@ -183,14 +198,19 @@ const ImageFormat* format_of(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-Result<Pixels> decode_image(std::span<const std::uint8_t> bytes, const std::string& place) {
+Result<Pixels> decode_image(std::span<const std::uint8_t> bytes, const std::string& place, const MemoryBudget* memory) {
   const ImageFormat* format = format_of(bytes);
   if (format == nullptr) return bad_input(place, "is neither PNG, JPEG nor WebP");
   if (format->decoder == nullptr) return bad_input(place, fmt::format("{} textures are not supported", format->name));
-  Pixels pixels;
-  if (!format->decoder(bytes, pixels))
-    return bad_input(place, fmt::format("the {} image is broken or too large", format->name));
-  return pixels;
+  Canvas canvas;
+  if (memory != nullptr) canvas.max_pixels = std::min(kMaxPixels, memory->left() / kBytesPerPixel);
+  if (format->decoder(bytes, canvas)) return std::move(canvas.pixels);
+  if (!canvas.is_too_large()) return bad_input(place, fmt::format("the {} image is broken", format->name));
+  const std::string size = fmt::format("{} x {}", canvas.width, canvas.height);
+  if (canvas.max_pixels == kMaxPixels) {
+    return bad_input(place, fmt::format("the {} image has {} pixels, more than 2^28", format->name, size));
+  }
+  return memory->check(canvas.width * canvas.height, kBytesPerPixel, place, fmt::format("pixels ({})", size)).error();
 }
 
 std::string_view unsupported_format(std::span<const std::uint8_t> bytes) {

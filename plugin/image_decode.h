@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "plugin/memory_budget.h"
 #include "plugin/result.h"
 
 namespace gltf_radiosity {
@@ -18,8 +19,9 @@ struct Pixels {
 };
 
 /// Formats are told apart by content. `place` goes into errors: `images[2]: KTX2 textures are not supported`. At most
-/// 2^28 pixels.
-Result<Pixels> decode_image(std::span<const std::uint8_t> bytes, const std::string& place);
+/// 2^28 pixels, and no more than fit into what is left of `memory`, if given.
+Result<Pixels> decode_image(std::span<const std::uint8_t> bytes, const std::string& place,
+                            const MemoryBudget* memory = nullptr);
 
 /// The name of a format that glTF knows but nothing here decodes, such as "KTX2"; empty for all others.
 std::string_view unsupported_format(std::span<const std::uint8_t> bytes);

@@ -32,6 +32,9 @@ using radiosity::Rgb;
 
 constexpr std::size_t kMaxCount = radiosity::kNothing - 1;
 
+/// What a vertex and a triangle of the scene take from import to export at the highest, measured with N triangles.
+constexpr std::uint64_t kBytesPerVertex = 200, kBytesPerTriangle = 400;
+
 /// Turns normals as the inverse transpose does, also where there is no inverse: the cofactors, with the sign of the
 /// determinant.
 glm::dmat3 normal_transform(const glm::dmat3& m) {
@@ -101,6 +104,7 @@ class SceneImporter {
     if (model_.nodes[node].skin >= 0 && instancing_of(document_, node) != nullptr) {
       return bad_input(place_of("nodes", node), "EXT_mesh_gpu_instancing does not say where skinned copies stand");
     }
+    if (auto fits = reserve_copies(node); !fits) return fits;
     std::uint32_t copy = 0;
     for (const glm::dmat4& node_from_copy : copy_transforms(document_, node)) {
       if (auto done = import_copy(placed, {node, copy++, placed.world_from_node[node] * node_from_copy}); !done) {
@@ -115,6 +119,33 @@ class SceneImporter {
     std::uint32_t node = 0, number = 0;
     glm::dmat4 world_from_mesh{1.0};
   };
+
+  /// Copies that EXT_mesh_gpu_instancing makes become nodes of their own.
+  Result<Done> reserve_copies(std::uint32_t node) {
+    constexpr std::uint64_t kBytesPerCopy = 4096;
+    const Json* instancing = instancing_of(document_, node);
+    if (instancing == nullptr) return Done{};
+    const Json& accessor = document_.json["accessors"][(*instancing)["attributes"].front().get<std::size_t>()];
+    return document_.memory->reserve(accessor["count"].get<std::uint64_t>(), kBytesPerCopy, place_of("nodes", node),
+                                     "instances");
+  }
+
+  /// What the vertices and triangles of a primitive take in a bake, by what its accessors say, before any is read.
+  Result<Done> reserve_instance(const Copy& copy, std::size_t mesh, std::size_t primitive) {
+    const tinygltf::Primitive& source = model_.meshes[mesh].primitives[primitive];
+    const auto position = source.attributes.find("POSITION");
+    if (position == source.attributes.end()) return Done{};
+    const auto count_of = [this](int accessor) {
+      return document_.json["accessors"][static_cast<std::size_t>(accessor)]["count"].get<std::uint64_t>();
+    };
+    const std::uint64_t vertex_count = count_of(position->second);
+    const std::uint64_t corner_count = source.indices >= 0 ? count_of(source.indices) : vertex_count;
+    const std::uint64_t triangle_count = source.mode == TINYGLTF_MODE_TRIANGLES ? corner_count / 3 : corner_count;
+    const std::string place = fmt::format("{} of nodes[{}]", place_of_primitive(mesh, primitive), copy.node);
+    MemoryBudget& memory = *document_.memory;
+    auto fits = memory.reserve(vertex_count, kBytesPerVertex, place, "vertices");
+    return fits ? memory.reserve(triangle_count, kBytesPerTriangle, place, "triangles") : fits;
+  }
 
   Result<Done> import_copy(const PlacedNodes& placed, const Copy& copy) {
     const auto mesh = static_cast<std::size_t>(model_.nodes[copy.node].mesh);
@@ -134,6 +165,7 @@ class SceneImporter {
     const auto mesh = static_cast<std::size_t>(model_.nodes[node].mesh);
     const Result<std::uint32_t> material = material_index(model_.meshes[mesh].primitives[primitive].material);
     if (!material) return material.error();
+    if (auto fits = reserve_instance(copy, mesh, primitive); !fits) return fits;
     const Result<const PrimitiveGeometry*> geometry = geometry_of(node, mesh, primitive, *material);
     if (!geometry) return geometry.error();
     const PrimitiveGeometry& source = **geometry;

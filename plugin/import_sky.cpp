@@ -72,7 +72,7 @@ Result<std::array<CubeFace, 6>> read_faces(const Document& document, const FileL
     const std::string place = place_of("images", index);
     const Result<Bytes> bytes = image_bytes(document, index);
     if (!bytes) return bytes.error();
-    const Result<Pixels> pixels = decode_image(*bytes, place);
+    const Result<Pixels> pixels = decode_image(*bytes, place, document.memory.get());
     if (!pixels) return pixels.error();
     const bool fits = pixels->width == pixels->height && pixels->width <= kMaxFaceSize;
     if (!fits || (k > 0 && pixels->width != faces[0].size)) return bad_input(place, "is no face of a cube map");
@@ -123,12 +123,12 @@ Result<Sky> sky_of_file_light(const Document& document, const FileLight& light, 
 }
 
 /// --sky as a luminance or as a file.
-Result<std::optional<Sky>> sky_of_options(const Options& options) {
+Result<std::optional<Sky>> sky_of_options(const Options& options, MemoryBudget& memory) {
   Sky sky;
   if (!options.sky_file.empty()) {
-    const Result<Bytes> bytes = read_file(options.sky_file, "");
+    const Result<Bytes> bytes = read_file(options.sky_file, "", memory.left());
     if (!bytes) return bytes.error();
-    Result<HdrImage> image = decode_hdr(*bytes, options.sky_file);
+    Result<HdrImage> image = decode_hdr(*bytes, options.sky_file, memory);
     if (!image) return image.error();
     sky.width = image->width;
     sky.height = image->height;
@@ -148,7 +148,7 @@ Result<std::optional<Sky>> sky_of_options(const Options& options) {
 
 Result<std::optional<Sky>> import_sky(const Document& document, const Options& options,
                                       std::vector<Warning>& warnings) {
-  auto sky = sky_of_options(options);
+  auto sky = sky_of_options(options, *document.memory);
   if (!sky) return sky.error();
   const auto scene = chosen_scene(document.json, options.scene);
   if (!scene) return scene.error();

@@ -362,8 +362,12 @@ Result<std::shared_ptr<const MipPyramid>> TextureLibrary::image_of(std::size_t t
     if (!bytes) return bytes.error();
     unread = unsupported_format(*bytes);
     if (!unread.empty()) continue;
-    Result<Pixels> pixels = decode_image(*bytes, place_of("images", source));
+    MemoryBudget& memory = *document_.memory;
+    Result<Pixels> pixels = decode_image(*bytes, place_of("images", source), &memory);
     if (!pixels) return pixels.error();
+    constexpr std::uint64_t kBytesPerTexel = 6;  // with coarser levels
+    auto fits = memory.reserve(pixels->rgba.size() / 4, kBytesPerTexel, place_of("images", source), "pixels");
+    if (!fits) return fits.error();
     image = decoded_[{source, kind}] = make_pyramid(std::move(*pixels), kind);
     break;
   }

@@ -288,6 +288,11 @@ Result<Done> decode_meshopt(Document& document) {
   if (!streams) return streams.error();
 
   // Data.
+  for (const Stream& stream : *streams) {
+    auto fits =
+        document.memory->reserve(stream.count, 2 * stream.stride, place_of("bufferViews", stream.view), "elements");
+    if (!fits) return fits;
+  }
   Bytes decoded;
   std::vector<std::size_t> offsets;
   for (const Stream& stream : *streams) {

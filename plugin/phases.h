@@ -13,7 +13,9 @@ namespace gltf_radiosity {
 /// Passes progress on to the caller and watches the clock on the way. Must outlive the Progress it hands out.
 class Phases {
  public:
-  explicit Phases(const Callbacks& callbacks);
+  /// After `time_limit` seconds from now core is told that time is up, a little earlier, so that writing is over by
+  /// then; before there is any light radiosity::OutOfTime is thrown. 0: there is no limit.
+  explicit Phases(const Callbacks& callbacks, double time_limit = 0.0);
   Phases(const Phases&) = delete;
   Phases& operator=(const Phases&) = delete;
 
@@ -28,12 +30,15 @@ class Phases {
 
   void report(std::string_view phase, double done);
   void close();
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  double seconds_to_write() const;
 
   const Callbacks& callbacks_;
   radiosity::Progress progress_;
   std::vector<PhaseReport> phases_;
   std::size_t current_ = 0;  ///< index into phases_
-  Clock::time_point since_ = Clock::now();
+  Clock::time_point start_ = Clock::now(), since_ = start_;
+  double time_limit_;
 };
 
 }  // namespace gltf_radiosity

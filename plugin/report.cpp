@@ -17,6 +17,8 @@ const char* name_of(radiosity::RefineEnd end) {
       return "error";
     case radiosity::RefineEnd::kLimit:
       return "limit";
+    case radiosity::RefineEnd::kTime:
+      return "time";
     case radiosity::RefineEnd::kFloor:
       return "floor";
     case radiosity::RefineEnd::kNotAdaptive:
@@ -42,6 +44,7 @@ void add_figures(const radiosity::BakeReport& bake, Report& report) {
   report.estimated_error = bake.estimated_error;
   report.refine_rounds = bake.refine_rounds;
   report.refine_end = name_of(bake.refine_end);
+  report.time_limit_reached = bake.out_of_time;
   report.emitted_flux = bake.emitted_flux;
   report.absorbed_flux = bake.absorbed_flux;
   report.escaped_flux = bake.escaped_flux;
@@ -70,6 +73,13 @@ void add_figures(const Options& options, Report& report) {
 
 void add_warnings(const radiosity::BakeReport& bake, std::vector<Warning>& warnings) {
   const auto warn = [&](const char* code, std::string message) { warnings.push_back({code, "", std::move(message)}); };
+  if (bake.out_of_time) {
+    warn("time-limit",
+         bake.refine_end == radiosity::RefineEnd::kTime
+             ? "time was up before the mesh was as fine as the light needs: what there was then is written"
+             : "time was up before the light between surfaces was solved: what there was then is written, which is too "
+               "dark");
+  }
   if (!bake.lit) warn("no-light", "the scene holds no light: everything is black");
   if (bake.degenerate_triangle_count > 0) {
     warn("degenerate-triangles", fmt::format("triangles without area: {}; they stay in the file and carry no light",
@@ -124,6 +134,7 @@ std::string to_json(const Report& report) {
                {"estimatedError", report.estimated_error},
                {"refineRounds", report.refine_rounds},
                {"refineEnd", report.refine_end},
+               {"timeLimitReached", report.time_limit_reached},
                {"emittedFlux", report.emitted_flux},
                {"absorbedFlux", report.absorbed_flux},
                {"escapedFlux", report.escaped_flux},

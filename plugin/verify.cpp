@@ -63,7 +63,7 @@ Result<Done> check_that_all_light_is_shown(const Json& root) {
 Result<BothScenes> read_both(const std::string& input, const std::string& output, const Options& options,
                              std::vector<Warning>& warnings) {
   BothScenes both;
-  const ReadOptions reading{options.allow_outside, options.also_written};
+  const ReadOptions reading{options.allow_outside, options.also_written, default_max_memory()};
   const Result<Document> source = read_document(input, reading);
   if (!source) return in_file(input, source.error());
   Result<ImportedScene> source_scene = import_scene(*source, options, warnings);

@@ -157,6 +157,12 @@ void add_transport_options(CLI::App& app, Options& options, std::optional<int>& 
        "Memory to plan with, as 512M or 8G, at least 64M: half of it holds form factors, older ones are computed again "
        "when needed; the mesh stops growing in time. Unless given, of what the machine has"},
       [&options](const std::string& text) { options.max_memory = parse_bytes(text); });
+  add(app,
+      {"--time-limit", "SECONDS", "none",
+       "Stop in time and write the light that there is by then, with exit code 4; above 0. The bytes then depend on "
+       "the "
+       "machine"},
+      [&options](const std::string& text) { options.time_limit = parse_number(text, {.open = true}); });
   add_choice(app, "--solver",
              "Shoot from the brightest patch first (progressive), or let all patches gather in turn (gathering)",
              options.solver, kSolver);

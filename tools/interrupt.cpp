@@ -22,6 +22,7 @@ static void remember_signal(int signal) {
 }
 
 void catch_interrupts() {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that is larger than allowed is an error of writing it, then
   for (const int signal : {SIGINT, SIGTERM}) {
     struct sigaction before = {};
     sigaction(signal, nullptr, &before);

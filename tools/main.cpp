@@ -1,9 +1,11 @@
 // START HERE, the command line: parse -> bake, verify or view -> report. The only code that prints and exits.
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <functional>
 #include <iostream>
+#include <new>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +14,7 @@
 #include <vector>
 
 #include "plugin/gltf_radiosity.h"
+#include "plugin/memory_budget.h"
 #include "plugin/pending_files.h"
 #include "plugin/verify.h"
 #include "plugin/view.h"
@@ -21,6 +24,8 @@
 #include "tools/command_line.h"
 #include "tools/exit_code.h"
 #include "tools/interrupt.h"
+#include "tools/last_resort.h"
+#include "tools/memory_limit.h"
 #include "tools/messages.h"
 #include "tools/progress_bar.h"
 #include "tools/report_file.h"
@@ -48,7 +53,7 @@ int report_to_programs(const std::string& file, std::string_view json, int exit_
   const std::optional<std::string> failure = write_report(file, json);
   if (!failure) return exit_code;
   print(stderr, error_line(*failure));
-  return exit_code == kExitDone ? kExitCannotWrite : exit_code;
+  return exit_code == kExitDone || exit_code == kExitLimit ? kExitCannotWrite : exit_code;
 }
 
 /// Says what went wrong, to people and to programs; answers the exit code.
@@ -78,6 +83,9 @@ std::function<void()> last_words(const std::vector<std::string>& files, const st
 }
 
 int bake_as_asked(const CommandLine& line) {
+  const std::uint64_t max_memory = line.options.max_memory;
+  limit_memory(max_memory > 0 ? max_memory : default_max_memory(), line.options.threads);
+
   // Bake, with a display that is gone before anything else is printed
   const auto start = std::chrono::steady_clock::now();
   ProgressBar progress(resolve(line.progress), standard_error());
@@ -96,7 +104,8 @@ int bake_as_asked(const CommandLine& line) {
   progress.finish();
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   for (const Warning& warning : result->warnings) print(stderr, warning_line(warning));
-  const int exit_code = report_to_programs(line.json, to_json(*result), kExitDone);
+  const int whole = result->time_limit_reached ? kExitLimit : kExitDone;
+  const int exit_code = report_to_programs(line.json, to_json(*result), whole);
   if (line.progress != ProgressStyle::kNone) print(stderr, summary_line(line.output, *result, elapsed.count()));
   return exit_code;
 }
@@ -125,6 +134,8 @@ int batch_as_asked(const CommandLine& line) {
 }
 
 int verify_as_asked(const VerifyCommand& command) {
+  limit_memory(default_max_memory(), command.options.bake.threads);
+
   // Verify
   ProgressBar progress(resolve(command.progress), standard_error());
   const Result<VerifyReport> result = [&] {
@@ -185,7 +196,10 @@ int run(std::span<const char* const> arguments) {
 }  // namespace gltf_radiosity::tools
 
 int main(int argc, char** argv) try {
+  gltf_radiosity::tools::install_last_resort();
   return gltf_radiosity::tools::run({argv, static_cast<std::size_t>(argc)});
+} catch (const std::bad_alloc&) {
+  return gltf_radiosity::tools::end_without_memory();
 } catch (const std::exception& bug) {
   gltf_radiosity::tools::print(stderr, gltf_radiosity::tools::error_line(bug.what()));
   return gltf_radiosity::tools::kExitInternal;

@@ -60,6 +60,7 @@ Reconstruction reconstruct(DisplayMesh& display, const Gatherer& gatherer, Fit h
   Reconstruction light;
   const RefinedMesh& mesh = display.mesh();
   light.samples = gather_samples(mesh, gatherer, {}, progress);
+  Pace pace(progress);
   progress.update("fit", 0.0);
   light.irradiance = fit(display, light.samples, how, {});
   progress.update("fit", 1.0);
@@ -86,6 +87,7 @@ Reconstruction reconstruct(DisplayMesh& display, const Gatherer& gatherer, Fit h
     }
     if (!display.bisector) return light;
     light.end = end_of(display, is_checked && estimate.is_surely_below(max_error), to_cut.empty());
+    if (light.end == RefineEnd::kNotAdaptive && !pace.allows_another_step()) light.end = RefineEnd::kTime;
     if (light.end != RefineEnd::kNotAdaptive) return light;
 
     // Cut, sample, fit.

@@ -28,7 +28,7 @@ struct RefineOptions {
 };
 
 /// Why refinement came to its end.
-enum class RefineEnd : std::uint8_t { kNotAdaptive, kError, kLimit, kFloor };
+enum class RefineEnd : std::uint8_t { kNotAdaptive, kError, kLimit, kFloor, kTime };
 
 /// Light at the vertices of the display mesh, and what it took.
 struct Reconstruction {
@@ -42,8 +42,8 @@ struct Reconstruction {
 /// How the samples of a display mesh are fitted to its vertices.
 FitOptions fit_options(const DisplayMesh& display);
 
-/// Cuts an adaptive `display` until the estimate of its error is small enough or a limit is reached. Nothing is
-/// gathered twice. Parallel; deterministic; throws `Cancelled`.
+/// Cuts an adaptive `display` until the estimate of its error is small enough, or a limit or the end of the time is
+/// reached. Nothing is gathered twice. Parallel; deterministic but for the time; throws `Cancelled`.
 Reconstruction reconstruct(DisplayMesh& display, const Gatherer& gatherer, Fit how, const RefineOptions& adapt,
                            const Progress& progress);
 

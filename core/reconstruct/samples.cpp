@@ -160,6 +160,28 @@ Samples gather_samples(const RefinedMesh& mesh, const Gatherer& gatherer, const 
   return gather_beside(none, mesh, allot(mesh, options), gatherer, progress);
 }
 
+double seconds_to_gather(const RefinedMesh& mesh, const Gatherer& gatherer, const SampleOptions& options,
+                         const Progress& progress) {
+  if (!progress.seconds_left) return 0.0;
+  const std::vector<std::uint32_t> first = allot(mesh, options);
+  const std::size_t count = mesh.elements.size();
+  constexpr std::size_t kTried = 128;
+  const std::size_t stride = count / kTried + 1;
+  const double before = progress.seconds_left();
+  std::vector<std::uint32_t> tried(count / stride + 1, 0);
+  parallel_in_chunks(tried.size(), kTried, {nullptr, progress.cancelled}, "gather", [&](std::size_t k) {
+    const auto e = static_cast<std::uint32_t>(std::min(k * stride, count - 1));
+    if (first[e] == first[e + 1]) return;
+    gather_sample(mesh, gatherer, e, first[e], corner_weights(first[e]));
+    tried[k] = 1;
+  });
+  const auto tried_count = std::max(1U, std::accumulate(tried.begin(), tried.end(), 0U));
+  const double left = progress.seconds_left();
+  const double seconds = (before - left) * double{first.back()} / tried_count;
+  if (seconds > left) throw OutOfTime{};
+  return seconds;
+}
+
 Samples samples_after_cuts(const Samples& samples, const RefinedMesh& mesh,
                            std::span<const std::uint32_t> origin_of_element, const Gatherer& gatherer,
                            const SampleOptions& options, const Progress& progress) {

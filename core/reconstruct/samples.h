@@ -48,6 +48,11 @@ Gathered gather_sample(const RefinedMesh& mesh, const Gatherer& gatherer, std::u
 Samples gather_samples(const RefinedMesh& mesh, const Gatherer& gatherer, const SampleOptions& options,
                        const Progress& progress);
 
+/// How long gather_samples() will take, judged by a few samples; 0 where nobody asks for the time. Throws `OutOfTime`
+/// if fewer seconds are left.
+double seconds_to_gather(const RefinedMesh& mesh, const Gatherer& gatherer, const SampleOptions& options,
+                         const Progress& progress);
+
 /// After the mesh was cut further: `samples` pass to the elements that they now lie in, and elements that were cut and
 /// hold fewer than `per_element` get more. `origin_of_element` [element_count] says which element of before each one
 /// was part of. Parallel; throws `Cancelled`.

@@ -17,8 +17,9 @@ namespace radiosity {
 
 struct SolveProblem {
   const Patches& patches;
-  std::span<const Rgb> direct;  ///< H_i, [patch_count], lx
-  float residual = 0.001F;      ///< stop when at most this share of the emitted flux is unshot
+  std::span<const Rgb> direct;    ///< H_i, [patch_count], lx
+  float residual = 0.001F;        ///< stop when at most this share of the emitted flux is unshot
+  double reserved_seconds = 0.0;  ///< what is to be left of Progress::seconds_left
 };
 
 struct Solution {
@@ -26,7 +27,8 @@ struct Solution {
   std::vector<Rgb> irradiance;  ///< what arrives from other patches, H_i left out, [patch_count], lx
   float residual = 0.0F;        ///< share of the emitted flux still unshot (or the last sweep's change of it)
   std::uint32_t steps = 0;      ///< shots, or patches gathered to
-  bool converged = false;       ///< false only where the step limit ended it
+  bool converged = false;       ///< false only where the step limit or the time ended it
+  bool out_of_time = false;     ///< what there was when time was up
 };
 
 /// What patches send before light is exchanged: E_i + rho_i H_i, lm/m2, [patch_count].

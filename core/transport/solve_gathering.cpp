@@ -30,12 +30,15 @@ Solution solve_gathering(const SolveProblem& problem, RowCache& rows, const Prog
 
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0U);
-  for (std::uint32_t sweep = 0; sweep < kMaxSweeps && !solution.converged; ++sweep) {
+  Pace pace(progress, problem.reserved_seconds);
+  for (std::uint32_t sweep = 0; sweep < kMaxSweeps && !solution.converged && !solution.out_of_time; ++sweep) {
     double change = 0.0;
     for (std::uint32_t i = 0; i < count; ++i) {
       // Rows in batches, side by side; after the first sweep they are at hand unless memory was short.
       if (i % kRowsAtOnce == 0) {
         progress.update("solve", sweep == 0 ? 0.9 * i / count : 0.9);
+        solution.out_of_time = !pace.allows_another_step();
+        if (solution.out_of_time) break;
         rows.fetch(std::span(order).subspan(i, std::min<std::size_t>(kRowsAtOnce, count - i)));
       }
       const FormFactorRow& row = rows.row(i);
@@ -46,6 +49,7 @@ Solution solve_gathering(const SolveProblem& problem, RowCache& rows, const Prog
       radiosity[i] = updated;
       irradiance[i] = gathered;
     }
+    if (solution.out_of_time) break;
     solution.steps += count;
     solution.residual = static_cast<float>(change / emitted);
     solution.converged = double{solution.residual} <= wanted;

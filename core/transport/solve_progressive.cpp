@@ -112,6 +112,7 @@ Solution solve_progressive(const SolveProblem& problem, RowCache& rows, const Pr
   const double emitted = unshot.total_flux();
   Solution solution;
   solution.converged = true;
+  Pace pace(progress, problem.reserved_seconds);
 
   while (emitted > 0.0) {
     // Enough?
@@ -121,7 +122,11 @@ Solution solve_progressive(const SolveProblem& problem, RowCache& rows, const Pr
       solution.converged = false;
       break;
     }
-    if (solution.steps % 64 == 0) progress.update("solve", done_share(solution.residual, problem.residual));
+    if (solution.steps % 64 == 0) {
+      progress.update("solve", done_share(solution.residual, problem.residual));
+      solution.out_of_time = !pace.allows_another_step();
+      if (solution.out_of_time) break;
+    }
 
     // The patch with the most unshot flux sends it: by reciprocity patch j gets F_ij A_i / A_j of its radiosity.
     const std::uint32_t shooter = unshot.brightest();
@@ -149,7 +154,8 @@ Solution solve_progressive(const SolveProblem& problem, RowCache& rows, const Pr
   for (std::uint32_t i = 0; i < patches.patch_count(); ++i) {
     if (has_shot[i]) shooters.push_back(i);
   }
-  even_out(patches, first, shooters, rows, irradiance, radiosity);
+  if (!solution.out_of_time) even_out(patches, first, shooters, rows, irradiance, radiosity);
+  solution.converged = solution.converged && !solution.out_of_time;
   solution.radiosity.assign(radiosity.begin(), radiosity.end());
   solution.irradiance.assign(irradiance.begin(), irradiance.end());
   progress.update("solve", 1.0);

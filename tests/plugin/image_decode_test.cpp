@@ -120,7 +120,7 @@ TEST(ImageDecode, TruncatedImagesAreRefused) {
     EXPECT_NE(image_verdict({png.begin(), png.begin() + static_cast<std::ptrdiff_t>(size)}), "fine") << size;
   }
   const Bytes jpeg = encode_jpeg(JCS_RGB, 3, {200, 100, 50});
-  EXPECT_EQ(image_verdict({jpeg.begin(), jpeg.begin() + 30}), "images[0]: the JPEG image is broken or too large");
+  EXPECT_EQ(image_verdict({jpeg.begin(), jpeg.begin() + 30}), "images[0]: the JPEG image is broken");
 }
 
 TEST(ImageDecode, FlippedBytesNeverCrash) {
@@ -136,10 +136,45 @@ TEST(ImageDecode, FlippedBytesNeverCrash) {
   }
 }
 
-TEST(ImageDecode, HugeSizesAreRefusedBeforeMemoryIsTaken) {
+/// The checksum of a PNG's chunk (PNG 1.2, appendix 15).
+std::uint32_t png_checksum(std::span<const std::uint8_t> bytes) {
+  std::uint32_t sum = 0xffffffffU;
+  for (const std::uint8_t byte : bytes) {
+    sum ^= byte;
+    for (int bit = 0; bit < 8; ++bit) sum = (sum >> 1U) ^ ((sum & 1U) != 0 ? 0xedb88320U : 0U);
+  }
+  return ~sum;
+}
+
+/// A PNG whose header is sound and says this size.
+Bytes png_of_size(std::uint32_t width, std::uint32_t height) {
   Bytes png = encode_png(3, 2, std::vector<std::uint8_t>(24, 9));
-  png[16] = 0x7f;  // width, the checksum no longer fits either
-  EXPECT_EQ(image_verdict(png), "images[0]: the PNG image is broken or too large");
+  const auto write = [&png](std::size_t at, std::uint32_t value) {
+    for (std::size_t i = 0; i < 4; ++i) png[at + i] = static_cast<std::uint8_t>(value >> (24 - 8 * i));
+  };
+  write(16, width);
+  write(20, height);
+  write(29, png_checksum(std::span(png).subspan(12, 17)));
+  return png;
+}
+
+TEST(ImageDecode, HugeSizesAreRefusedBeforeMemoryIsTaken) {
+  EXPECT_EQ(image_verdict(png_of_size(3, 2)), "fine");
+  EXPECT_EQ(image_verdict(png_of_size(65535, 65535)),
+            "images[0]: the PNG image has 65535 x 65535 pixels, more than 2^28");
+  EXPECT_EQ(image_verdict(png_of_size(0x7fffffff, 0x7fffffff)),
+            "images[0]: the PNG image has 2147483647 x 2147483647 pixels, more than 2^28");
+}
+
+TEST(ImageDecode, SizesThatDoNotFitIntoMemoryAreALimit) {
+  const MemoryBudget memory(std::uint64_t{1} << 30U);
+  EXPECT_TRUE(decode_image(png_of_size(3, 2), "images[0]", &memory));
+  const auto pixels = decode_image(png_of_size(16000, 16000), "images[0]", &memory);
+  ASSERT_FALSE(pixels);
+  EXPECT_EQ(pixels.error().code, ErrorCode::kLimit);
+  EXPECT_EQ(
+      pixels.error().text(),
+      "images[0]: 256000000 pixels (16000 x 16000) need about 2.86 GiB, and of --max-memory, 1 GiB, 1 GiB are left");
 }
 
 TEST(ImageDecode, OtherFormatsAreNamed) {
