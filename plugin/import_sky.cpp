@@ -74,6 +74,14 @@ Result<std::array<CubeFace, 6>> read_faces(const Document& document, const FileL
     if (!bytes) return bytes.error();
     const Result<Pixels> pixels = decode_image(*bytes, place, document.memory.get());
     if (!pixels) return pixels.error();
+    if (k == 0) {
+      // The faces as light, as they grow, and the map that is made of them.
+      constexpr std::uint64_t kBytesPerTexel = (6 * 2 + 8) * sizeof(Rgb);
+      const auto width = static_cast<std::uint64_t>(pixels->width);
+      if (auto room = document.memory->reserve(width * width, kBytesPerTexel, place, "pixels of each face"); !room) {
+        return room.error();
+      }
+    }
     const bool fits = pixels->width == pixels->height && pixels->width <= kMaxFaceSize;
     if (!fits || (k > 0 && pixels->width != faces[0].size)) return bad_input(place, "is no face of a cube map");
     faces[k] = face_of(*pixels);
@@ -130,6 +138,9 @@ Result<std::optional<Sky>> sky_of_options(const Options& options, MemoryBudget& 
     if (!bytes) return bytes.error();
     Result<HdrImage> image = decode_hdr(*bytes, options.sky_file, memory);
     if (!image) return image.error();
+    constexpr std::uint64_t kBytesPerTexel = 3 * sizeof(Rgb);  // the map, and what picks directions by it
+    auto room = memory.reserve(image->texels.size(), kBytesPerTexel, options.sky_file, "pixels");
+    if (!room) return room.error();
     sky.width = image->width;
     sky.height = image->height;
     sky.map = std::move(image->texels);

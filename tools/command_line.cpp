@@ -154,8 +154,9 @@ void add_transport_options(CLI::App& app, Options& options, std::optional<int>& 
              options.fit, kFit);
   add(app,
       {"--max-memory", "SIZE", "75 %",
-       "Memory to plan with, as 512M or 8G, at least 64M: half of it holds form factors, older ones are computed again "
-       "when needed; the mesh stops growing in time. Unless given, of what the machine has"},
+       "Memory that the whole bake may take, as 512M or 8G, at least 64M: half of what the scene leaves holds form "
+       "factors, older ones are computed again when needed; the mesh stops growing in time. Unless given, of what the "
+       "machine or the control groups of the process have"},
       [&options](const std::string& text) { options.max_memory = parse_bytes(text); });
   add(app,
       {"--time-limit", "SECONDS", "none",

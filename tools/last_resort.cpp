@@ -30,8 +30,10 @@ void print_plainly(std::string_view line) {
 }  // namespace
 
 extern "C" {
+// Only calls that POSIX allows in a handler.
 static void end_of_aborted_program(int /*signal*/) {
-  print_plainly("gltf-radiosity: error: a library aborted\n");
+  constexpr char kLine[] = "gltf-radiosity: error: a library aborted\n";
+  [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, kLine, sizeof kLine - 1);
   ::_exit(kExitInternal);
 }
 }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kLook(50);
 /// Together with the look and the cleaning up less than the second that is promised.
-constexpr std::chrono::milliseconds kPatience(600);
+constexpr std::chrono::milliseconds kPatience(450);
 
 }  // namespace
 

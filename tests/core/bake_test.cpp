@@ -533,6 +533,28 @@ TEST(Bake, StopsInEveryPhaseWhenCancelled) {
   }
 }
 
+TEST(Bake, RefinementEndsWhenTimeIsUp) {
+  // A clock that runs only while the mesh is refined.
+  const Scene scene = test::cornell_box();
+  BakeOptions options = quick(0.3F);
+  options.refine = Refine::kAdaptive;
+  options.adapt.max_error = 1e-4;
+  double left = 3.5;
+  const Progress hurried{.report = [&left](std::string_view phase, double) { left -= phase == "refine" ? 1.0 : 0.0; },
+                         .cancelled = {},
+                         .seconds_left = [&left] { return left; }};
+  const Bake baked = bake(scene, options, hurried);
+  EXPECT_EQ(baked.report.refine_end, RefineEnd::kTime);
+  EXPECT_TRUE(baked.report.out_of_time);
+  EXPECT_EQ(baked.report.refine_rounds, 3U);
+  EXPECT_GT(baked.report.estimated_error, 0.0);
+}
+
+TEST(Bake, WithoutTimeToGatherThereIsNoLight) {
+  const Progress late{.report = {}, .cancelled = {}, .seconds_left = [] { return -1.0; }};
+  EXPECT_THROW(bake(test::cornell_box(), quick(0.3F), late), OutOfTime);
+}
+
 TEST(Bake, CountsWhatItMade) {
   const Scene scene = test::cornell_box();
   const Bake baked = bake(scene, quick(0.1F), {});

@@ -222,6 +222,24 @@ TEST_P(Solvers, StopWhenCancelled) {
   EXPECT_THROW(GetParam()({room.patches, direct}, rows, cancelled), Cancelled);
 }
 
+TEST_P(Solvers, EndWithWhatTheyHaveWhenTimeIsUp) {
+  const Sphere room = colourful_sphere();
+  const std::vector<Rgb> direct = some_direct_light();
+  RowCache rows(room, kRoomy);
+  const Progress hurried{.report = {}, .cancelled = {}, .seconds_left = [] { return 1.0; }};
+  const Solution in_time = GetParam()({room.patches, direct}, rows, hurried);
+  EXPECT_FALSE(in_time.out_of_time);
+  const SolveProblem reserved{room.patches, direct, 0.001F, 2.0};
+  const Solution cut_short = GetParam()(reserved, rows, hurried);
+  EXPECT_TRUE(cut_short.out_of_time);
+  EXPECT_FALSE(cut_short.converged);
+  ASSERT_EQ(cut_short.radiosity.size(), in_time.radiosity.size());
+  // Nothing but what the direct light makes is certain by then, and an estimate of the rest is allowed.
+  const std::vector<glm::dvec3> first = first_radiosity(reserved);
+  for (std::size_t i = 0; i < first.size(); ++i)
+    EXPECT_GE(cut_short.radiosity[i].x, 0.999F * static_cast<float>(first[i].x));
+}
+
 INSTANTIATE_TEST_SUITE_P(Both, Solvers, testing::Values(&solve_progressive, &solve_gathering),
                          [](const auto& solver) { return solver.index == 0 ? "Progressive" : "Gathering"; });
 
