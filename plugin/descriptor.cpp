@@ -30,6 +30,7 @@ int Descriptor::read_all(std::uint64_t max_bytes, std::vector<std::uint8_t>& byt
   if (::fstat(descriptor_, &status) != 0) return errno;
   const std::uint64_t said = S_ISREG(status.st_mode) ? static_cast<std::uint64_t>(status.st_size) : 0;
   if (said > max_bytes) return EFBIG;
+  const std::uint64_t most = said > 0 ? max_bytes : max_bytes / 4;  // to grow takes twice as much, for a moment
 
   // One byte more than that, so that the end shows without another buffer.
   std::size_t size = 0;
@@ -41,7 +42,7 @@ int Descriptor::read_all(std::uint64_t max_bytes, std::vector<std::uint8_t>& byt
     if (count < 0) return errno;
     if (count == 0) break;
     size += static_cast<std::size_t>(count);
-    if (size > max_bytes) return EFBIG;
+    if (size > most) return EFBIG;
   }
   bytes.resize(size);
   return 0;

@@ -23,7 +23,7 @@ class Descriptor {
   int get() const { return descriptor_; }
 
   /// Everything from here to the end; EFBIG if that is more than `max_bytes`, before memory is taken where the file
-  /// says its size.
+  /// says its size; where it does not, as pipes, if that is more than a quarter.
   int read_all(std::uint64_t max_bytes, std::vector<std::uint8_t>& bytes) const;
   /// Writes all of `bytes`.
   int write_all(std::span<const std::uint8_t> bytes) const;

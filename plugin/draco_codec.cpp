@@ -50,6 +50,34 @@ bool copy_values(const draco::Mesh& mesh, const draco::PointAttribute& attribute
   return true;
 }
 
+/// The faces and points that a blob says it holds, which its accessors repeat; none where it cannot be read. (Formats
+/// from 2.2 on, since 2018; earlier ones say the same elsewhere.)
+struct Claim {
+  std::uint32_t faces = 0, points = 0;
+};
+std::optional<Claim> claim_of(std::span<const std::uint8_t> blob) {
+  constexpr std::uint16_t kBitstream22 = DRACO_BITSTREAM_VERSION(2, 2);
+  draco::DecoderBuffer buffer;
+  buffer.Init(reinterpret_cast<const char*>(blob.data()), blob.size());
+  draco::DracoHeader header{};
+  if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok()) return std::nullopt;
+  if (DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor) < kBitstream22) return std::nullopt;
+  buffer.set_bitstream_version(DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor));
+  if ((header.flags & METADATA_FLAG_MASK) != 0) {
+    draco::GeometryMetadata skipped;
+    if (!draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &skipped)) return std::nullopt;
+  }
+  Claim claim;
+  if (header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING) {
+    const bool read = draco::DecodeVarint(&claim.faces, &buffer) && draco::DecodeVarint(&claim.points, &buffer);
+    return read ? std::optional(claim) : std::nullopt;
+  }
+  std::uint8_t traversal = 0;
+  const bool read = buffer.Decode(&traversal) && draco::DecodeVarint(&claim.points, &buffer) &&
+                    draco::DecodeVarint(&claim.faces, &buffer);
+  return read ? std::optional(claim) : std::nullopt;
+}
+
 /// Fills accessors of one document from Draco blobs.
 class DracoDecoder {
  public:
@@ -206,34 +234,6 @@ class DracoDecoder {
   std::map<std::size_t, Source> filled_;
   Bytes bytes_;
 };
-
-/// The faces and points that a blob says it holds, which its accessors repeat; none where it cannot be read. (Formats
-/// from 2.2 on, since 2018; earlier ones say the same elsewhere.)
-struct Claim {
-  std::uint32_t faces = 0, points = 0;
-};
-std::optional<Claim> claim_of(std::span<const std::uint8_t> blob) {
-  constexpr std::uint16_t kBitstream22 = DRACO_BITSTREAM_VERSION(2, 2);
-  draco::DecoderBuffer buffer;
-  buffer.Init(reinterpret_cast<const char*>(blob.data()), blob.size());
-  draco::DracoHeader header{};
-  if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok()) return std::nullopt;
-  if (DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor) < kBitstream22) return std::nullopt;
-  buffer.set_bitstream_version(DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor));
-  if ((header.flags & METADATA_FLAG_MASK) != 0) {
-    draco::GeometryMetadata skipped;
-    if (!draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &skipped)) return std::nullopt;
-  }
-  Claim claim;
-  if (header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING) {
-    const bool read = draco::DecodeVarint(&claim.faces, &buffer) && draco::DecodeVarint(&claim.points, &buffer);
-    return read ? std::optional(claim) : std::nullopt;
-  }
-  std::uint8_t traversal = 0;
-  const bool read = buffer.Decode(&traversal) && draco::DecodeVarint(&claim.points, &buffer) &&
-                    draco::DecodeVarint(&claim.faces, &buffer);
-  return read ? std::optional(claim) : std::nullopt;
-}
 
 }  // namespace
 

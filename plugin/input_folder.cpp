@@ -95,7 +95,8 @@ Result<std::vector<std::uint8_t>> read_open_file(const Descriptor& file, const s
     case 0:
       return bytes;
     case EFBIG:
-      return Error{ErrorCode::kLimit, place, fmt::format("the file has more than {} bytes (--max-memory)", max_bytes)};
+      return Error{ErrorCode::kLimit, place,
+                   fmt::format("the file is too large: of --max-memory {} bytes are left", max_bytes)};
     case EISDIR:
       return bad_input(place, "is a folder");
     default:

@@ -177,7 +177,7 @@ double seconds_to_gather(const RefinedMesh& mesh, const Gatherer& gatherer, cons
   });
   const auto tried_count = std::max(1U, std::accumulate(tried.begin(), tried.end(), 0U));
   const double left = progress.seconds_left();
-  const double seconds = (before - left) * double{first.back()} / tried_count;
+  const double seconds = (before - left) * static_cast<double>(first.back()) / tried_count;
   if (seconds > left) throw OutOfTime{};
   return seconds;
 }
