@@ -166,12 +166,7 @@ Result<Report> bake_between(const Read& read, const Write& write, const Options&
 
 std::string_view version() { return GLTF_RADIOSITY_VERSION; }
 
-// Three quarters of what the machine has.
-std::uint64_t default_max_memory() {
-  const long pages = ::sysconf(_SC_PHYS_PAGES), page_bytes = ::sysconf(_SC_PAGESIZE);
-  if (pages <= 0 || page_bytes <= 0) return std::uint64_t{2} << 30U;
-  return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page_bytes) / 4 * 3;
-}
+std::uint64_t default_max_memory() { return allowed_memory(); }
 
 Result<Report> bake_file(const std::string& input, const std::string& output, const Options& options,
                          const Callbacks& callbacks) {

@@ -75,8 +75,8 @@ struct Options {
   double residual = 0.001;  ///< stop at this share of unshot flux, (0, 1)
   int max_patches = 0;      ///< 0: as many as the baked mesh is worth
   FitMethod fit = FitMethod::kLeastSquares;
-  /// Rows of form factors take half of this at most, bytes, and the mesh stops growing in time; 0 is three quarters of
-  /// the machine's memory.
+  /// What the bake may take, bytes, as far as it can be told beforehand: what the file claims is counted, rows of form
+  /// factors take half of the rest at most, the mesh stops growing in time; 0 is default_max_memory().
   std::uint64_t max_memory = 0;
   int threads = 0;  ///< 0: every core
   /// Seconds after which the bake ends with the light it has by then; the mesh is refined and the light exchanged no
@@ -172,7 +172,8 @@ struct BakedGlb {
 /// Bakes a glTF held in memory (GLB, or JSON whose buffers and images are data URIs) into a GLB.
 Result<BakedGlb> bake_memory(std::span<const std::byte> input, const Options& options, const Callbacks& callbacks = {});
 
-/// What Options::max_memory stands for when it is 0, bytes.
+/// What Options::max_memory stands for when it is 0, bytes: three quarters of what the machine has, or of what the
+/// control groups of this process may have.
 std::uint64_t default_max_memory();
 
 /// The report as JSON, indented by two spaces.

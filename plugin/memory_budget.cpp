@@ -77,7 +77,7 @@ Result<Done> MemoryBudget::reserve(std::uint64_t count, std::uint64_t bytes_each
   return fits;
 }
 
-std::uint64_t default_max_memory(const fs::path& system) {
+std::uint64_t allowed_memory(const fs::path& system) {
   const std::uint64_t memory = std::min(physical_memory(), control_group_limit(system));
   return memory == kUnlimited ? std::uint64_t{2} << 30U : memory / 4 * 3;
 }

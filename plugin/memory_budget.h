@@ -35,6 +35,6 @@ class MemoryBudget {
 
 /// Three quarters of the machine's memory, or of what the control groups of this process (containers, batch systems)
 /// may have. `system` is where proc and sys lie.
-std::uint64_t default_max_memory(const std::filesystem::path& system = "/");
+std::uint64_t allowed_memory(const std::filesystem::path& system = "/");
 
 }  // namespace gltf_radiosity

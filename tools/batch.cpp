@@ -13,6 +13,7 @@
 #include "tools/child_processes.h"
 #include "tools/exit_code.h"
 #include "tools/interrupt.h"
+#include "tools/memory_limit.h"
 #include "tools/report_file.h"
 
 namespace gltf_radiosity::tools {
@@ -35,6 +36,7 @@ int bake_one(const CommandLine& line, const BatchFile& file, const BatchShares& 
   std::filesystem::create_directories(std::filesystem::path(file.output).parent_path(), ignored);
 
   Options options = line.options;
+  limit_memory(shares.max_memory, shares.threads);
   options.threads = shares.threads;
   options.max_memory = shares.max_memory;
   Callbacks callbacks;
@@ -48,7 +50,7 @@ int bake_one(const CommandLine& line, const BatchFile& file, const BatchShares& 
   answer = fmt::format("{} triangles, {} vertices{}\n{}", result->output_triangles, result->output_vertices,
                        warnings == 0 ? "" : fmt::format(", {} warning{}", warnings, warnings == 1 ? "" : "s"),
                        to_json(*result));
-  return kExitDone;
+  return result->time_limit_reached ? kExitLimit : kExitDone;
 }
 
 /// A child that did not come to its end: killed by us, by the kernel for its memory, or by a bug.

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "plugin/gltf_radiosity.h"
-#include "plugin/memory_budget.h"
 #include "plugin/pending_files.h"
 #include "plugin/verify.h"
 #include "plugin/view.h"

@@ -27,7 +27,7 @@ function assert_refused(code, reason, input, ...options) {
   assert.equal(lines.length, 1, lines.join('\n'))
   assert.match(lines[0], reason)
   assert.ok(!fs.existsSync(target('out.glb')))
-  assert.ok(seconds < (sanitized() ? 20 : 5), `took ${seconds} s`)
+  assert.ok(seconds < (sanitized() ? 60 : 10), `took ${seconds} s`)
 }
 
 const chunk_length = 12
@@ -41,10 +41,10 @@ test('four billion vertices without data', () => {
   }))
 })
 
-test('a mesh that is small in the file and large in a hundred thousand nodes', () => {
+test('a mesh that is small in the file and large in ten thousand nodes', () => {
   assert_refused(4, /meshes\[0\]\.primitives\[0\] of nodes\[\d+\]: 1 times \d+ vertices and \d+ triangles need/, changed('cornell_box_5000.glb', (json) => {
     const [node] = json.nodes.filter(({ mesh }) => mesh !== undefined)
-    json.nodes = Array.from({ length: 100_000 }, () => ({ mesh: node.mesh }))
+    json.nodes = Array.from({ length: 10_000 }, () => ({ mesh: node.mesh }))
     json.scenes = [{ nodes: json.nodes.map((_, i) => i) }]
     json.scene = 0
   }), '--max-memory', '512M')
@@ -94,7 +94,7 @@ test('a JSON of many empty values', () => {
   assert_refused(4, /JSON: \d+ values need about/, target('values.gltf'))
 })
 
-test('a file that has no end', () => assert_refused(4, /\/dev\/zero: the file is too large: of --max-memory \d+ bytes are left/, '/dev/zero'))
+test('a file that has no end', () => assert_refused(4, /\/dev\/zero: the file is too large: of --max-memory \d+ bytes are left/, '/dev/zero', '--max-memory', '64M'))
 
 test('nodes nested ten thousand deep are no matter', () => {
   const deep = changed('unit_cube.glb', (json) => {

@@ -45,26 +45,26 @@ TEST(MemoryBudget, ProductsDoNotOverflow) {
 
 TEST(MemoryBudget, TheDefaultIsThreeQuartersOfWhatControlGroupsAllow) {
   const TemporaryFolder root;
-  EXPECT_GT(default_max_memory(root.path()), 0U) << "without control groups";
-  const std::uint64_t physical = default_max_memory(root.path());
+  EXPECT_GT(allowed_memory(root.path()), 0U) << "without control groups";
+  const std::uint64_t physical = allowed_memory(root.path());
 
   // Version 2: the lowest of the group and those above.
   write_text(root / "proc/self/cgroup", "0::/batch/job\n");
   write_text(root / "sys/fs/cgroup/batch/job/memory.max", "max\n");
-  EXPECT_EQ(default_max_memory(root.path()), physical);
+  EXPECT_EQ(allowed_memory(root.path()), physical);
   write_text(root / "sys/fs/cgroup/batch/memory.max", "4000000\n");
-  EXPECT_EQ(default_max_memory(root.path()), 3'000'000U);
+  EXPECT_EQ(allowed_memory(root.path()), 3'000'000U);
   write_text(root / "sys/fs/cgroup/batch/job/memory.max", "400000\n");
-  EXPECT_EQ(default_max_memory(root.path()), 300'000U);
+  EXPECT_EQ(allowed_memory(root.path()), 300'000U);
 
   // A container sees its own group as the root.
   write_text(root / "sys/fs/cgroup/memory.max", "40000\n");
-  EXPECT_EQ(default_max_memory(root.path()), 30'000U);
+  EXPECT_EQ(allowed_memory(root.path()), 30'000U);
 
   // Version 1.
   write_text(root / "proc/self/cgroup", "5:cpu:/other\n4:memory:/job\n");
   write_text(root / "sys/fs/cgroup/memory/job/memory.limit_in_bytes", "8000\n");
-  EXPECT_EQ(default_max_memory(root.path()), 6'000U);
+  EXPECT_EQ(allowed_memory(root.path()), 6'000U);
 }
 
 // What a file claims, before anything is done for it.
