@@ -200,7 +200,7 @@ Result<ViewReport> write_page(const std::string& baked, const std::string& html,
   progress.update("write", 0.0);
   const std::string title = options.title.empty() ? fs::path(baked).filename().string() : options.title;
   const std::string page = page_of(*parts, *scene, title);
-  PendingFiles files;
+  PendingFiles files(html);
   if (const auto written = files.add(html, page); !written) return written.error();
   if (const auto written = files.commit(); !written) return written.error();
   return ViewReport{scene->glb.size(), page.size(), std::move(scene->warnings)};

@@ -69,7 +69,7 @@ TEST(MemoryBudget, TheDefaultIsThreeQuartersOfWhatControlGroupsAllow) {
 
 // What a file claims, before anything is done for it.
 
-std::string refusal(const GltfBuilder& builder, std::uint64_t max_memory = std::uint64_t{1} << 30U) {
+std::string budget_refusal(const GltfBuilder& builder, std::uint64_t max_memory = std::uint64_t{1} << 30U) {
   ReadOptions options;
   options.max_memory = max_memory;
   const Result<Document> document = read_document(builder.glb(), {}, options);
@@ -94,14 +94,14 @@ GltfBuilder empty_square(std::uint64_t count) {
 }
 
 TEST(MemoryBudget, FourBillionVerticesWithoutDataAreRefused) {
-  EXPECT_THAT(refusal(empty_square(4'000'000'000)), StartsWith("accessors[0]: 4000000000 elements need about"));
-  EXPECT_THAT(refusal(empty_square(5'000'000'000)), HasSubstr("has 5000000000 elements but no bufferView"));
+  EXPECT_THAT(budget_refusal(empty_square(4'000'000'000)), StartsWith("accessors[0]: 4000000000 elements need about"));
+  EXPECT_THAT(budget_refusal(empty_square(5'000'000'000)), HasSubstr("has 5000000000 elements but no bufferView"));
 }
 
 TEST(MemoryBudget, AMeshTimesItsNodesIsCountedBeforeItIsRead) {
   GltfBuilder builder = empty_square(1'000'000);
   for (int i = 1; i < 1000; ++i) builder.add_node(0);
-  EXPECT_THAT(refusal(builder), StartsWith("meshes[0].primitives[0] of nodes["));
+  EXPECT_THAT(budget_refusal(builder), StartsWith("meshes[0].primitives[0] of nodes["));
 }
 
 TEST(MemoryBudget, InstancesAreCountedBeforeTheyAreMade) {
@@ -115,15 +115,15 @@ TEST(MemoryBudget, InstancesAreCountedBeforeTheyAreMade) {
   builder.json["accessors"].push_back(copies);
   builder.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] =
       builder.json["accessors"].size() - 1;
-  EXPECT_THAT(refusal(builder), StartsWith("nodes[0]: 10000000 instances need about"));
+  EXPECT_THAT(budget_refusal(builder), StartsWith("nodes[0]: 10000000 instances need about"));
 }
 
 TEST(MemoryBudget, JsonIsCountedBeforeItIsParsed) {
   GltfBuilder builder;
   builder.add_node(builder.add_mesh(unit_square()));
   builder.json["asset"]["extras"] = std::vector<int>(1'000'000, 0);
-  EXPECT_THAT(refusal(builder, std::uint64_t{64} << 20U), StartsWith("JSON: "));
-  EXPECT_EQ(refusal(builder), "fine");
+  EXPECT_THAT(budget_refusal(builder, std::uint64_t{64} << 20U), StartsWith("JSON: "));
+  EXPECT_EQ(budget_refusal(builder), "fine");
 }
 
 }  // namespace
