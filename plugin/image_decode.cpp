@@ -21,7 +21,7 @@ constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 28;
 constexpr std::uint64_t kBytesPerPixel = 12;
 
 /// Where an image is decoded to.
-struct Canvas {
+struct ImageTarget {
   Pixels pixels;
   std::uint64_t max_pixels = kMaxPixels;
   std::uint64_t width = 0, height = 0;  ///< what the file says
@@ -65,13 +65,13 @@ void expect_rgba(png_structp png, png_infop info) {
   png_read_update_info(png, info);
 }
 
-bool read_png(png_structp png, png_infop info, PngSource& source, Canvas& canvas) {
+bool read_png(png_structp png, png_infop info, PngSource& source, ImageTarget& target) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_read_fn(png, &source, read_png_bytes);
   png_set_user_limits(png, 0x7fffffff, 0x7fffffff);
   png_read_info(png, info);
-  if (!canvas.allocate(png_get_image_width(png, info), png_get_image_height(png, info))) return false;
-  Pixels& pixels = canvas.pixels;
+  if (!target.allocate(png_get_image_width(png, info), png_get_image_height(png, info))) return false;
+  Pixels& pixels = target.pixels;
   expect_rgba(png, info);
   const std::size_t row_size = static_cast<std::size_t>(pixels.width) * 4;
   if (png_get_rowbytes(png, info) != row_size) return false;
@@ -85,13 +85,13 @@ bool read_png(png_structp png, png_infop info, PngSource& source, Canvas& canvas
   return true;
 }
 
-bool decode_png(std::span<const std::uint8_t> bytes, Canvas& canvas) {
+bool decode_png(std::span<const std::uint8_t> bytes, ImageTarget& target) {
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, leave_png, ignore_png_warning);
   png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
   PngSource source{bytes};
   bool decoded = false;
   try {
-    decoded = info != nullptr && read_png(png, info, source, canvas);
+    decoded = info != nullptr && read_png(png, info, source, target);
   } catch (const std::bad_alloc&) {
     decoded = false;
   }
@@ -125,13 +125,13 @@ void cmyk_to_rgba(std::uint8_t* row, int width, bool inverted) {
   }
 }
 
-bool read_jpeg(jpeg_decompress_struct& jpeg, std::span<const std::uint8_t> bytes, Canvas& canvas) {
+bool read_jpeg(jpeg_decompress_struct& jpeg, std::span<const std::uint8_t> bytes, ImageTarget& target) {
   jpeg_mem_src(&jpeg, bytes.data(), bytes.size());
   if (jpeg_read_header(&jpeg, TRUE) != JPEG_HEADER_OK) return false;
   const bool cmyk = jpeg.jpeg_color_space == JCS_CMYK || jpeg.jpeg_color_space == JCS_YCCK;
   jpeg.out_color_space = cmyk ? JCS_CMYK : JCS_EXT_RGBA;
-  if (!canvas.allocate(jpeg.image_width, jpeg.image_height)) return false;
-  Pixels& pixels = canvas.pixels;
+  if (!target.allocate(jpeg.image_width, jpeg.image_height)) return false;
+  Pixels& pixels = target.pixels;
   jpeg_start_decompress(&jpeg);
   if (jpeg.output_components != 4) return false;
   while (jpeg.output_scanline < jpeg.output_height) {
@@ -144,7 +144,7 @@ bool read_jpeg(jpeg_decompress_struct& jpeg, std::span<const std::uint8_t> bytes
   return true;
 }
 
-bool decode_jpeg(std::span<const std::uint8_t> bytes, Canvas& canvas) {
+bool decode_jpeg(std::span<const std::uint8_t> bytes, ImageTarget& target) {
   jpeg_decompress_struct jpeg{};
   JpegErrors errors{};
   jpeg.err = jpeg_std_error(&errors.manager);
@@ -154,7 +154,7 @@ bool decode_jpeg(std::span<const std::uint8_t> bytes, Canvas& canvas) {
   if (setjmp(errors.leave) == 0) {
     jpeg_create_decompress(&jpeg);
     try {
-      decoded = read_jpeg(jpeg, bytes, canvas);
+      decoded = read_jpeg(jpeg, bytes, target);
     } catch (const std::bad_alloc&) {
       decoded = false;
     }
@@ -165,15 +165,15 @@ bool decode_jpeg(std::span<const std::uint8_t> bytes, Canvas& canvas) {
 
 // WebP.
 
-bool decode_webp(std::span<const std::uint8_t> bytes, Canvas& canvas) {
+bool decode_webp(std::span<const std::uint8_t> bytes, ImageTarget& target) {
   int width = 0, height = 0;
   if (WebPGetInfo(bytes.data(), bytes.size(), &width, &height) == 0 || width <= 0 || height <= 0) return false;
-  if (!canvas.allocate(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height))) return false;
-  Pixels& pixels = canvas.pixels;
+  if (!target.allocate(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height))) return false;
+  Pixels& pixels = target.pixels;
   return WebPDecodeRGBAInto(bytes.data(), bytes.size(), pixels.rgba.data(), pixels.rgba.size(), width * 4) != nullptr;
 }
 
-using Decoder = bool (*)(std::span<const std::uint8_t>, Canvas&);
+using Decoder = bool (*)(std::span<const std::uint8_t>, ImageTarget&);
 
 struct ImageFormat {
   std::size_t at;
@@ -202,15 +202,15 @@ Result<Pixels> decode_image(std::span<const std::uint8_t> bytes, const std::stri
   const ImageFormat* format = format_of(bytes);
   if (format == nullptr) return bad_input(place, "is neither PNG, JPEG nor WebP");
   if (format->decoder == nullptr) return bad_input(place, fmt::format("{} textures are not supported", format->name));
-  Canvas canvas;
-  if (memory != nullptr) canvas.max_pixels = std::min(kMaxPixels, memory->left() / kBytesPerPixel);
-  if (format->decoder(bytes, canvas)) return std::move(canvas.pixels);
-  if (!canvas.is_too_large()) return bad_input(place, fmt::format("the {} image is broken", format->name));
-  const std::string size = fmt::format("{} x {}", canvas.width, canvas.height);
-  if (canvas.max_pixels == kMaxPixels) {
+  ImageTarget target;
+  if (memory != nullptr) target.max_pixels = std::min(kMaxPixels, memory->left() / kBytesPerPixel);
+  if (format->decoder(bytes, target)) return std::move(target.pixels);
+  if (!target.is_too_large()) return bad_input(place, fmt::format("the {} image is broken", format->name));
+  const std::string size = fmt::format("{} x {}", target.width, target.height);
+  if (target.max_pixels == kMaxPixels) {
     return bad_input(place, fmt::format("the {} image has {} pixels, more than 2^28", format->name, size));
   }
-  return memory->check(canvas.width * canvas.height, kBytesPerPixel, place, fmt::format("pixels ({})", size)).error();
+  return memory->check(target.width * target.height, kBytesPerPixel, place, fmt::format("pixels ({})", size)).error();
 }
 
 std::string_view unsupported_format(std::span<const std::uint8_t> bytes) {

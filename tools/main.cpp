@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "plugin/gltf_radiosity.h"
-#include "plugin/pending_files.h"
 #include "plugin/verify.h"
 #include "plugin/view.h"
+#include "plugin/whole_file.h"
 #include "tools/batch.h"
 #include "tools/batch_plan.h"
 #include "tools/batch_report.h"
@@ -75,7 +75,7 @@ Callbacks callbacks_of(ProgressBar& progress) {
 std::function<void()> last_words(const std::vector<std::string>& files, const std::string& json) {
   return [files, json] {
     for (const std::string& file : files) {
-      if (!file.empty()) remove_own_temporaries(file);
+      if (!file.empty()) remove_temporaries_of(file);
     }
     report_failure({ErrorCode::kCancelled, "", "cancelled"}, json);
   };

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "plugin/pending_files.h"
+#include "plugin/whole_file.h"
 
 namespace gltf_radiosity::tools {
 namespace {
@@ -64,11 +64,7 @@ int write_through(const std::string& path, std::string_view text) {
 }
 
 std::optional<std::string> replace_file(const std::string& path, std::string_view text) {
-  const fs::path folder = fs::path(path).parent_path();
-  if (!folder.empty() && !fs::is_directory(folder)) return path + ": the folder does not exist";
-  PendingFiles files(path);
-  auto done = files.add(path, text);
-  if (done) done = files.commit();
+  const auto done = write_whole_file(path, text);
   return done ? std::nullopt : std::optional(done.error().text());
 }
 
