@@ -10,6 +10,7 @@
 #include "core/transport/direct_light.h"
 #include "core/transport/energy_balance.h"
 #include "core/transport/exchange_checks.h"
+#include "core/transport/row_keeper.h"
 #include "core/transport/sky_light.h"
 #include "core/transport/solve_gathering.h"
 #include "core/transport/solve_progressive.h"
@@ -96,8 +97,10 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
   const Hemicube patch_hemicube(options.hemicube_resolution);
   const Hemicube sample_hemicube(std::max(2, options.hemicube_resolution / 4 * 2));
   const SmoothSky sky(scene.sky, sample_hemicube.resolution());
-  const auto row_source = make_hemicube_rows(patches, patch_hemicube, *items, sky, surface_offset(scene));
-  RowCache rows(*row_source, options.row_cache_bytes);
+  const auto hemicube_rows = make_hemicube_rows(patches, patch_hemicube, *items, sky, surface_offset(scene));
+  const RowInputs row_inputs{scene, patches, options.hemicube_resolution, raster};
+  const auto kept_rows = options.row_keeper == nullptr ? nullptr : options.row_keeper->recall(row_inputs);
+  RowCache rows(kept_rows ? *kept_rows : *hemicube_rows, options.row_cache_bytes);
 
   // Transport: direct light first, then the exchange between patches.
   const DirectLight direct_light(rays, patches, {options.lamp_rays, std::max(1, options.lamp_rays / 4)});
@@ -124,6 +127,7 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
   const SolveProblem problem{patches, direct, options.residual, gathering};
   const Solution solution = options.solver == Solver::kGathering ? solve_gathering(problem, rows, progress)
                                                                  : solve_progressive(problem, rows, progress);
+  if (options.row_keeper != nullptr && !kept_rows && rows.holds_all()) options.row_keeper->keep(row_inputs, rows);
 
   // Reconstruction: light at samples inside the elements, then at vertices; the mesh is cut where that misses the
   // light.

@@ -21,6 +21,8 @@ enum class Visibility : std::uint8_t { kAuto, kRaster, kRays };
 /// Which method solves for the light between the patches.
 enum class Solver : std::uint8_t { kProgressive, kGathering };
 
+class RowKeeper;
+
 struct BakeOptions {
   Refine refine = Refine::kUniform;
   SubdivideOptions subdivide;    ///< how the display mesh is cut, or what adaptive refinement starts from
@@ -37,6 +39,7 @@ struct BakeOptions {
   int lamp_rays = 32;   ///< shadow rays from a sample to all lamps together, where some are hidden
   std::size_t row_cache_bytes = std::size_t{1} << 30;  ///< memory for rows of form factors: older ones are evicted
   int threads = 0;                                     ///< 0 uses every core; the result does not depend on it
+  RowKeeper* row_keeper = nullptr;                     ///< not owned; rows of an earlier bake; null: there are none
 };
 
 /// As many patches as a display mesh of `element_count` elements is worth: a third of them, but at least a thousand and

@@ -19,12 +19,12 @@ using archive_format::Header;
 /// The fastest: levels up to 9 take up to ten times as long for a fifth less.
 constexpr int kZstdLevel = 1;
 
-/// Empty where packing does not pay.
+/// As they are where packing does not pay.
 std::vector<std::uint8_t> packed_by_zstd(std::span<const std::uint8_t> bytes) {
   std::vector<std::uint8_t> result(::ZSTD_compressBound(bytes.size()));
   const std::size_t size = ::ZSTD_compress(result.data(), result.size(), bytes.data(), bytes.size(), kZstdLevel);
   if (::ZSTD_isError(size) != 0) throw std::bad_alloc();  // it has room for everything, so nothing else can go wrong
-  if (size > bytes.size() - bytes.size() / 20) return {};
+  if (size > bytes.size() - bytes.size() / 20) return {bytes.begin(), bytes.end()};
   result.resize(size);
   result.shrink_to_fit();
   return result;
@@ -47,7 +47,7 @@ void ArchiveWriter::add_bytes(std::string_view name, std::span<const std::uint8_
                               Packing packing) {
   Item item{std::string(name), bytes, {}, bytes.size(), static_cast<std::uint32_t>(value_bytes), false};
   if (packing == Packing::kZstd) item.own = packed_by_zstd(bytes);
-  item.packed = !item.own.empty();
+  item.packed = item.own.size() < bytes.size() && packing == Packing::kZstd;
   items_.push_back(std::move(item));
 }
 

@@ -23,7 +23,7 @@ class ArchiveWriter {
  public:
   explicit ArchiveWriter(const ArchiveKind& kind) : kind_name_(kind.name), kind_version_(kind.version) {}
 
-  /// Values that are stored plain must stay where they are until write(); packed ones are packed at once.
+  /// With kPlain the values must stay where they are until write(); with kZstd they are packed, or copied, at once.
   /// REQUIRES: `name` is new and has at most 39 bytes. Padding within T would be written too: there should be none.
   template <ArchiveValue T>
   void add(std::string_view name, std::span<const T> values, Packing packing) {

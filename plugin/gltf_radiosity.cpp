@@ -6,6 +6,7 @@
 
 #include "core/bake.h"
 #include "core/parallel.h"
+#include "plugin/cached_bake.h"
 #include "plugin/check_options.h"
 #include "plugin/compress_geometry.h"
 #include "plugin/document.h"
@@ -119,8 +120,12 @@ Result<Report> bake_document(Document& document, BufferBuilder& added, const Opt
 
   // Bake.
   report.patch_size = patch_size_of(options, *scene);
-  const radiosity::Bake bake =
-      radiosity::bake(scene->scene, bake_options(options, *scene, report.patch_size, *document.memory), progress);
+  const Result<CachedBake> baked =
+      bake_through_cache(document, *scene, options, bake_options(options, *scene, report.patch_size, *document.memory),
+                         report.warnings, progress);
+  if (!baked) return baked.error();
+  const radiosity::Bake& bake = baked->bake;
+  report.cache = name_of(baked->spared);
   add_figures(bake.report, report);
   add_warnings(bake.report, report.warnings);
 

@@ -83,6 +83,9 @@ struct Options {
   /// further. The bytes then depend on the machine. 0: as many as it takes. What cannot be done any faster, as reading
   /// and writing, may take longer; if there is no light by then, the bake fails with ErrorCode::kLimit.
   double time_limit = 0.0;
+  // Cache
+  std::string cache;  ///< folder where results are kept for bakes of the same content; empty: none
+  std::uint64_t cache_size = std::uint64_t{4} << 30U;  ///< bytes it may grow to: what was used longest ago goes first
   // Output
   std::optional<double> exposure;       ///< k, m2/cd; none chooses automatically
   Engine engine = Engine::kAny;         ///< chooses where the next two say nothing
@@ -103,8 +106,8 @@ struct Options {
 
 /// Called from one thread at a time.
 struct Callbacks {
-  /// `phase` is one of "read", "import", "subdivide", "patches", "direct", "sky", "solve", "gather", "fit", "refine",
-  /// "simplify", "export", "compress", "write"; `done` in [0,1].
+  /// `phase` is one of "read", "import", "cache", "subdivide", "patches", "direct", "sky", "solve", "gather", "fit",
+  /// "refine", "simplify", "export", "compress", "write"; `done` in [0,1].
   std::function<void(std::string_view phase, double done)> progress;
   /// Answer true to stop: the bake ends with ErrorCode::kCancelled within a second and writes nothing.
   std::function<bool()> cancelled;
@@ -155,6 +158,7 @@ struct Report {
   std::string color_type;             ///< "float", "u16" or "u8"
   std::string compression;            ///< "draco", "meshopt" or empty
   std::string visibility;             ///< "raster" or "rays"
+  std::string cache;                  ///< what the cache spared: "nothing", "form-factors" or "bake"; empty without one
   std::vector<PhaseReport> phases;
   std::vector<Warning> warnings;
 };

@@ -148,7 +148,8 @@ std::string to_json(const Report& report) {
                {"light", report.light},
                {"colorType", report.color_type},
                {"compression", report.compression},
-               {"visibility", report.visibility}};
+               {"visibility", report.visibility},
+               {"cache", report.cache}};
 
   add_lists(report.phases, report.warnings, json);
   return json.dump(2, ' ', false, Json::error_handler_t::replace);

@@ -248,6 +248,20 @@ void add_output_options(CLI::App& app, CommandLine& line) {
   add_progress_option(app, line.progress);
 }
 
+void add_cache_options(CLI::App& app, Options& options) {
+  app.option_defaults()->group("Cache");
+  add(app,
+      {"--cache", "DIR", "none",
+       "Keep results in this folder, which is made if there is none: a second bake of the same content takes the time "
+       "of "
+       "reading and writing, another lighting of the same shapes finds its form factors. Many processes may share it"},
+      [&options](const std::string& text) { options.cache = text; });
+  add(app,
+      {"--cache-size", "SIZE", "4G",
+       "What the folder may grow to, as 512M or 8G, at least 64M: what was used longest ago goes first"},
+      [&options](const std::string& text) { options.cache_size = parse_bytes(text); });
+}
+
 void add_batch_options(CLI::App& app, CommandLine& line) {
   app.option_defaults()->group("Many files");
   CLI::Option* const batch = app.add_flag_callback(
@@ -292,6 +306,7 @@ struct Parser {
     add_bake_option(app, line.options);
     add_transport_options(app, line.options, quality);
     add_output_options(app, line);
+    add_cache_options(app, line.options);
     add_batch_options(app, line);
     add_other_options(app);
   }

@@ -57,6 +57,7 @@ class RowCache {
   /// Computes those of `patches` that are missing, side by side.
   void fetch(std::span<const std::uint32_t> patches);
   bool holds(std::uint32_t patch) const { return slot_of_patch_.contains(patch); }
+  bool holds_all() const { return slots_.size() == patch_count(); }
   /// The row of `patch`, or null where it is not at hand. Valid until the next fetch().
   const FormFactorRow* peek(std::uint32_t patch) const {
     const auto slot = slot_of_patch_.find(patch);

@@ -85,6 +85,8 @@ TEST(HelpText, DescribesEveryOption) {
                                           "--exposure",
                                           "--ev100",
                                           "--color-type",
+                                          "--cache",
+                                          "--cache-size",
                                           "--batch",
                                           "--jobs",
                                           "--json",
@@ -119,6 +121,8 @@ TEST(HelpText, DescribesEveryOption) {
 TEST(HelpText, StatesTheDefaultsOfTheLibrary) {
   const Options library;
   const std::vector<std::pair<std::string, std::string>> expected = {
+      {"--cache", "none"},
+      {"--cache-size", fmt::format("{}G", library.cache_size >> 30U)},
       {"--batch", "off"},
       {"--jobs", "auto"},
       {"--scene", "auto"},

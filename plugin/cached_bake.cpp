@@ -1,0 +1,116 @@
+#include "plugin/cached_bake.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "plugin/bake_archive.h"
+#include "plugin/cache_folder.h"
+#include "plugin/cache_keys.h"
+#include "plugin/rows_archive.h"
+
+namespace gltf_radiosity {
+namespace {
+
+/// Finds rows in the cache and puts them there.
+class CachedRows final : public radiosity::RowKeeper {
+ public:
+  CachedRows(CacheFolder& cache, const Document& document, const ImportedScene& scene)
+      : cache_(cache), document_(document), scene_(scene) {}
+
+  std::unique_ptr<radiosity::RowSource> recall(const radiosity::RowInputs& inputs) override {
+    auto rows = cache_.load(kRowsArchive, key_of(inputs),
+                            [&](const Archive& archive) { return read_rows(archive, inputs.patches.patch_count()); });
+    found_ = rows.has_value();
+    return found_ ? std::move(*rows) : nullptr;
+  }
+
+  void keep(const radiosity::RowInputs& inputs, const radiosity::RowCache& rows) override {
+    ArchiveWriter archive(kRowsArchive);
+    add_rows(archive, rows);
+    cache_.store(kRowsArchive, key_of(inputs), archive);
+  }
+
+  bool found() const { return found_; }
+
+ private:
+  const std::string& key_of(const radiosity::RowInputs& inputs) {
+    if (key_.empty()) key_ = rows_key(document_, scene_, inputs);
+    return key_;
+  }
+
+  CacheFolder& cache_;
+  const Document& document_;
+  const ImportedScene& scene_;
+  std::string key_;
+  bool found_ = false;
+};
+
+/// A mesh a quarter as large as both limits has met neither: no step of subdivision adds three times what there is.
+bool is_same_under_limit(std::size_t element_count, std::uint64_t limit_then, std::uint64_t limit_now) {
+  return limit_then == limit_now || element_count <= std::min(limit_then, limit_now) / 4;
+}
+
+/// The bake that an entry holds; empty if another limit on elements could have made it another.
+Result<std::optional<radiosity::Bake>> read_entry(const Archive& archive, const ImportedScene& scene,
+                                                  std::uint64_t max_elements) {
+  const Result<std::uint64_t> limit = archive.read_value<std::uint64_t>("max elements");
+  if (!limit) return limit.error();
+  Result<radiosity::Bake> bake = read_bake(archive, scene.scene.positions.size(), scene.scene.triangles.size());
+  if (!bake) return bake.error();
+  if (!is_same_under_limit(bake->mesh.elements.size(), *limit, max_elements)) return std::optional<radiosity::Bake>();
+  return std::optional(std::move(*bake));
+}
+
+}  // namespace
+
+const char* name_of(Spared spared) {
+  switch (spared) {
+    case Spared::kNoCache:
+      return "";
+    case Spared::kNothing:
+      return "nothing";
+    case Spared::kFormFactors:
+      return "form-factors";
+    case Spared::kBake:
+      return "bake";
+  }
+  return "";
+}
+
+Result<CachedBake> bake_through_cache(const Document& document, const ImportedScene& scene, const Options& options,
+                                      radiosity::BakeOptions bake_options, std::vector<Warning>& warnings,
+                                      const radiosity::Progress& progress) {
+  if (options.cache.empty()) return CachedBake{radiosity::bake(scene.scene, bake_options, progress), Spared::kNoCache};
+  progress.update("cache", 0.0);
+  Result<CacheFolder> cache = CacheFolder::open(options.cache, options.cache_size, warnings);
+  if (!cache) return cache.error();
+
+  // A bake that was finished. The light of groups, and what follows from it, is not kept with it.
+  const Result<std::string> key = bake_key(document, options, bake_options);
+  if (!key) return key.error();
+  const std::uint64_t max_elements = bake_options.subdivide.max_elements;
+  const bool whole = !bake_options.light_groups;
+  if (whole) {
+    auto found = cache->load(kBakeArchive, *key,
+                             [&](const Archive& archive) { return read_entry(archive, scene, max_elements); });
+    progress.update("cache", 1.0);
+    if (found && *found) return CachedBake{std::move(**found), Spared::kBake};
+  }
+
+  // Form factors, if these are there.
+  CachedRows rows(*cache, document, scene);
+  bake_options.row_keeper = &rows;
+  CachedBake result{radiosity::bake(scene.scene, bake_options, progress), Spared::kNothing};
+  if (rows.found()) result.spared = Spared::kFormFactors;
+  if (!whole || result.bake.report.out_of_time) return result;
+
+  progress.update("cache", 0.0);
+  ArchiveWriter archive(kBakeArchive);
+  archive.add_value("max elements", max_elements);
+  add_bake(archive, result.bake);
+  cache->store(kBakeArchive, *key, archive);
+  progress.update("cache", 1.0);
+  return result;
+}
+
+}  // namespace gltf_radiosity
