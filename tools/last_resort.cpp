@@ -32,7 +32,7 @@ void print_plainly(std::string_view line) {
 extern "C" {
 // Only calls that POSIX allows in a handler.
 static void end_of_aborted_program(int /*signal*/) {
-  constexpr char kLine[] = "gltf-radiosity: error: a library aborted\n";
+  constexpr char kLine[] = "gltf-radiosity: error: the program crashed, or a library gave up\n";
   [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, kLine, sizeof kLine - 1);
   ::_exit(kExitInternal);
 }
@@ -41,6 +41,9 @@ static void end_of_aborted_program(int /*signal*/) {
 void install_last_resort() {
   std::set_terminate(end_of_program);
   std::signal(SIGABRT, end_of_aborted_program);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they say more
+  for (const int crash : {SIGSEGV, SIGBUS, SIGFPE, SIGILL}) std::signal(crash, end_of_aborted_program);
+#endif
 }
 
 int end_without_memory() {
