@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "core/progress.h"
+#include "core/thread_order.h"
 
 namespace radiosity {
 
@@ -21,18 +22,28 @@ auto on_threads(int threads, const Work& work) -> decltype(work()) {
   return work();
 }
 
-/// Calls `work(k)` once for every k in [0, count), concurrently within a chunk of `chunk` calls. Each call must write
-/// only what belongs to its k: then the result does not depend on the number of threads. Throws `Cancelled` between
+/// Calls `work(k)` once for every k in [first, last), concurrently. Each call must write only what belongs to its k:
+/// then the result does not depend on the number of threads.
+template <typename Work>
+void in_parallel(std::size_t first, std::size_t last, const Work& work) {
+  ThreadOrder before, after;
+  before.give();
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(first, last), [&](const auto& range) {
+    before.take();
+    for (std::size_t k = range.begin(); k != range.end(); ++k) work(k);
+    after.give();
+  });
+  after.take();
+}
+
+/// The same in chunks of `chunk` calls, which see what the chunks before them have written. Throws `Cancelled` between
 /// chunks.
 template <typename Work>
 void parallel_in_chunks(std::size_t count, std::size_t chunk, const Progress& progress, std::string_view phase,
                         const Work& work) {
   for (std::size_t first = 0; first < count; first += chunk) {
     progress.update(phase, static_cast<double>(first) / static_cast<double>(count));
-    const std::size_t last = std::min(first + chunk, count);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(first, last), [&work](const auto& range) {
-      for (std::size_t k = range.begin(); k != range.end(); ++k) work(k);
-    });
+    in_parallel(first, std::min(first + chunk, count), work);
   }
   progress.update(phase, 1.0);
 }

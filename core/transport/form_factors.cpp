@@ -1,9 +1,8 @@
 #include "core/transport/form_factors.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
+#include "core/parallel.h"
 #include "core/transport/sky_light.h"
 
 namespace radiosity {
@@ -93,7 +92,7 @@ void RowCache::fetch(std::span<const std::uint32_t> patches) {
     if (!holds(patch)) missing.push_back(patch);
   }
   std::vector<FormFactorRow> rows(missing.size());
-  tbb::parallel_for(std::size_t{0}, missing.size(), [&](std::size_t k) { rows[k] = source_.row(missing[k]); });
+  in_parallel(0, missing.size(), [&](std::size_t k) { rows[k] = source_.row(missing[k]); });
 
   for (std::size_t k = 0; k < missing.size(); ++k) {
     bytes_ += rows[k].bytes();

@@ -1,7 +1,5 @@
 #include "core/transport/sky_parts.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -12,6 +10,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/parallel.h"
 #include "core/photometry.h"
 
 namespace radiosity {
@@ -36,10 +35,11 @@ Rgb smooth_part(const Rgb& luminance, float limit) {
 /// Mean over the sphere of the eye-weighted luminance up to a limit.
 double mean_below(const Sky& sky, double limit) {
   std::vector<double> row_sum(static_cast<std::size_t>(sky.height));
-  tbb::parallel_for(0, sky.height, [&](int row) {
+  in_parallel(0, row_sum.size(), [&](std::size_t k) {
+    const int row = static_cast<int>(k);
     double sum = 0.0;
     for (const Rgb& texel : row_of(sky, row)) sum += std::min(double{luminance_of(texel)}, limit);
-    row_sum[static_cast<std::size_t>(row)] = sum * texel_solid_angle(sky, row);
+    row_sum[k] = sum * texel_solid_angle(sky, row);
   });
   return std::accumulate(row_sum.begin(), row_sum.end(), 0.0) / kSphere;
 }

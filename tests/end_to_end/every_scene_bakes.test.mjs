@@ -7,12 +7,14 @@ import { check_baked } from './baked.mjs'
 import { bake, cheapest, run, sanitized, temporary_folder, test_asset } from './command_line.mjs'
 
 const folder = temporary_folder()
-const option_sets = [
+const all_option_sets = [
   { output: 'as_it_is.glb', options: ['--refine', 'none'] },
   { output: 'uniform.gltf', options: ['--refine', 'uniform', '--color-type', 'u16'] },
   { output: 'adaptive.glb', options: ['--refine', 'adaptive', '--max-vertices', '2000', '--simplify'] },
   { output: 'simplified.embedded.gltf', options: ['--refine', 'none', '--simplify', '--color-type', 'u8', '--sky', '0.2,0.3,0.5'] },
 ]
+// Sanitizers look for what the code does, and the last set goes wherever the first one goes.
+const option_sets = sanitized() ? all_option_sets.slice(1) : all_option_sets
 const scenes = fs.readdirSync(test_asset('')).filter((name) => /\.(glb|gltf)$/.test(name))
 // Under sanitizers the large Cornell boxes and rooms take minutes, and have nothing that the small ones have not.
 const too_slow = sanitized() ? ['cornell_box_5000.glb', 'cornell_box_1500.glb', 'two_rooms.glb'] : []
@@ -37,7 +39,7 @@ const t_vertices = (scene, target) => {
   return JSON.parse(stdout).tVertices
 }
 
-for (const scene of scenes.filter((name) => !too_slow.includes(name))) {
+for (const scene of sanitized() ? [] : scenes) {
   test(`${scene} gets no crack`, () => {
     const baked = (output) => path.join(folder, scene, output)
     const before = t_vertices(test_asset(scene), baked('as_it_is.glb'))
