@@ -30,8 +30,8 @@ std::optional<std::string> validate_vertices(const Scene& scene) {
     return "there are too many vertices";
   }
   for (std::size_t i = 0; i < scene.positions.size(); ++i) {
-    if (!is_finite(scene.positions[i])) {
-      return place("positions", i) + " is not finite";
+    if (!is_in_reach(scene.positions[i])) {
+      return place("positions", i) + " is not finite, or beyond 1e8 m";
     }
     if (!is_finite(scene.normals[i])) {
       return place("normals", i) + " is not finite";
@@ -81,8 +81,8 @@ std::optional<std::string> validate_lights(const Scene& scene) {
     if (!is_light(light.intensity)) {
       return place("lights", i) + " has an intensity that is negative or not finite";
     }
-    if (light.kind != Light::Kind::kDirectional && !is_finite(light.position)) {
-      return place("lights", i) + " has a position that is not finite";
+    if (light.kind != Light::Kind::kDirectional && !is_in_reach(light.position)) {
+      return place("lights", i) + " has a position that is not finite, or beyond 1e8 m";
     }
     if (light.kind != Light::Kind::kPoint && !(std::abs(glm::length(light.direction) - 1.0F) < 1e-3F)) {
       return place("lights", i) + " has a direction that is not of unit length";

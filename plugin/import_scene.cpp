@@ -27,7 +27,6 @@
 namespace gltf_radiosity {
 namespace {
 
-using radiosity::is_finite;
 using radiosity::Rgb;
 
 constexpr std::size_t kMaxCount = radiosity::kNothing - 1;
@@ -99,8 +98,12 @@ class SceneImporter {
 
   Result<Done> import_node(const PlacedNodes& placed, std::uint32_t node) {
     const Json& json = document_.json["nodes"][node];
-    if (const Json* light = extension_of(json, "KHR_lights_punctual"))
+    if (const Json* light = extension_of(json, "KHR_lights_punctual")) {
       import_punctual_light(*light, placed.world_from_node[node]);
+      if (!radiosity::is_in_reach(result_.scene.lights.back().position)) {
+        return bad_input(place_of("nodes", node), "its light lies beyond 1e8 m");
+      }
+    }
     const int mesh = model_.nodes[node].mesh;
     if (mesh < 0) return Done{};
     if (model_.nodes[node].skin >= 0 && instancing_of(document_, node) != nullptr) {
@@ -212,8 +215,8 @@ class SceneImporter {
       moves_ = true;
     }
     const auto first = scene.positions.begin() + instance.first_vertex;
-    if (!std::all_of(first, scene.positions.end(), is_finite)) {
-      return bad_input(place_of("nodes", node), "its transform moves vertices to infinity");
+    if (!std::all_of(first, scene.positions.end(), radiosity::is_in_reach)) {
+      return bad_input(place_of("nodes", node), "its vertices lie beyond 1e8 m");
     }
 
     add_triangles(source, instance, placed.level[node]);

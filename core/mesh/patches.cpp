@@ -82,6 +82,22 @@ bool is_two_sided(const Scene& scene, std::uint32_t triangle) {
   return scene.surfaces[scene.surface_of_triangle[triangle]].two_sided;
 }
 
+/// Whether tiles of patches of this size fall into no more than `most` groups. Tiles are counted as they come, and none
+/// is kept: a triangle as long as the whole scene has a quarter of a million at every size that is tried.
+bool has_few_groups(const Scene& scene, std::span<const float> areas, float size, std::uint32_t most) {
+  CellGroups groups(scene, size);
+  for (std::uint32_t t = 0; t < areas.size(); ++t) {
+    const std::uint32_t cuts = areas[t] > 0.0F ? cuts_for(scene, t, kTileLength * size) : 0;
+    for (std::uint32_t k = 0; k < cuts * cuts; ++k) {
+      const Tile tile{k, t, tile_part(cuts, k), 0.0F};
+      groups.group_of(tile, false);
+      if (is_two_sided(scene, t)) groups.group_of(tile, true);
+      if (groups.count() > most) return false;
+    }
+  }
+  return true;
+}
+
 /// The size of a grid cell that gives few enough groups, metres: splitting them will make more.
 float choose_size(const Scene& scene, std::span<const float> areas, std::uint32_t max_patches) {
   constexpr double kGroupsPerPatch = 0.8;
@@ -91,13 +107,7 @@ float choose_size(const Scene& scene, std::span<const float> areas, std::uint32_
   // One cell around everything cannot be merged further: as many groups as surfaces and facings.
   for (const float largest = 4.0F * diagonal(scene); size < largest; size *= 1.1F) {
     if (count_tiles(scene, areas, kTileLength * size) > std::max(kMaxTiles, 2 * areas.size())) continue;
-    CellGroups groups(scene, size);
-    for (const Tile& tile : make_tiles(scene, areas, kTileLength * size).leaves()) {
-      groups.group_of(tile, false);
-      if (is_two_sided(scene, tile.triangle)) groups.group_of(tile, true);
-      if (groups.count() > most) break;
-    }
-    if (groups.count() <= most) break;
+    if (has_few_groups(scene, areas, size, most)) break;
   }
   return size;
 }

@@ -77,6 +77,14 @@ TEST(Validate, NamesTheVertexThatIsNotFinite) {
   EXPECT_THAT(fault_of(scene), HasSubstr("normals[3]"));
 }
 
+TEST(Validate, NamesTheVertexThatIsTooFarAwayForAreasToBeFinite) {
+  Scene scene = valid_scene();
+  scene.positions[7].y = 1e8F;
+  EXPECT_EQ(validate(scene), std::nullopt);
+  scene.positions[7].y = 1e19F;
+  EXPECT_THAT(fault_of(scene), HasSubstr("positions[7]"));
+}
+
 TEST(Validate, NamesTheTriangleWhoseIndicesAreOutOfRange) {
   Scene scene = valid_scene();
   scene.triangles[5].z = 24;

@@ -148,7 +148,25 @@ TEST(ImportScene, OnlyTheDefaultSceneIsWalked) {
 TEST(ImportScene, WhatANodeMovesToInfinityIsNamed) {
   GltfBuilder builder;
   builder.add_node(builder.add_mesh(unit_square()), {{"scale", {1e38, 1.0, 1.0}}, {"translation", {3e38, 0.0, 0.0}}});
-  EXPECT_EQ(verdict(builder), "nodes[0]: its transform moves vertices to infinity");
+  EXPECT_EQ(verdict(builder), "nodes[0]: its vertices lie beyond 1e8 m");
+}
+
+// Found by fuzz_bake: squared areas became infinite, and a ray that was not a number ended the program in Embree.
+TEST(ImportScene, AVertexTooFarAwayForAreasToBeFiniteIsNamed) {
+  GltfBuilder builder;
+  PrimitiveParts parts = unit_square();
+  parts.positions[2].y = 1e19F;
+  builder.add_node(builder.add_mesh(parts));
+  EXPECT_EQ(verdict(builder), "nodes[0]: its vertices lie beyond 1e8 m");
+}
+
+TEST(ImportScene, ALightTooFarAwayForDistancesToBeFiniteIsNamed) {
+  GltfBuilder builder;
+  builder.add_node(builder.add_mesh(unit_square()));
+  builder.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::array({{{"type", "point"}}});
+  const Json light = {{"KHR_lights_punctual", {{"light", 0}}}};
+  builder.add_node(std::nullopt, {{"translation", {1e20, 0.0, 0.0}}, {"extensions", light}});
+  EXPECT_EQ(verdict(builder), "nodes[1]: its light lies beyond 1e8 m");
 }
 
 // Primitives.

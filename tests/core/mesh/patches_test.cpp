@@ -94,6 +94,13 @@ TEST(Patches, KeepBelowTheirLimitWhereManyAreSplit) {
   }
 }
 
+// Found by fuzz_bake: every size that was tried made all the tiles of such triangles, for a minute.
+TEST(Patches, AreFewWhereTrianglesAreAsLongAsTheSceneAndThin) {
+  Scene scene = test::box_room({2, 1, 3}, {});
+  for (glm::vec3& position : scene.positions) position *= glm::vec3(1e6F, 1.0F, 1.0F);
+  EXPECT_LE(patches_of(scene, 60).patch_count(), 60U);
+}
+
 TEST(Patches, AreOneWhereNoLightComes) {
   // Behind the wall it is dark; the light's own room has nearly all the patches.
   const Scene scene = test::rooms_on_one_floor(0.5F, 0.1F);
