@@ -19,6 +19,7 @@
 #include "plugin/accessor_view.h"
 #include "plugin/append_accessor.h"
 #include "plugin/check_document.h"
+#include "plugin/child_trial.h"
 #include "plugin/used_extensions.h"
 
 namespace gltf_radiosity {
@@ -92,7 +93,7 @@ class DracoDecoder {
 
     if (!has_data(primitive, extension, view)) {
       if (auto fits = check_claim(primitive, blob_in(document_, view), place); !fits) return fits;
-      auto mesh = decode_draco_blob(blob_in(document_, view), place);
+      auto mesh = decode_foreign_draco_blob(blob_in(document_, view), place);
       if (!mesh) return mesh.error();
       if (auto filled = fill_indices(primitive, **mesh, view, place); !filled) return filled.error();
       for (const auto& [name, id] : extension["attributes"].items()) {
@@ -249,6 +250,23 @@ Result<std::unique_ptr<draco::Mesh>> decode_draco_blob(std::span<const std::uint
   } catch (const std::exception&) {
     return bad_input(place, "Draco cannot decode it");
   }
+}
+
+Result<std::unique_ptr<draco::Mesh>> decode_foreign_draco_blob(std::span<const std::uint8_t> blob,
+                                                               const std::string& place) {
+  constexpr std::size_t kBytesPerSecond = std::size_t{1} << 16U;
+  const auto seconds = static_cast<unsigned>(1 + blob.size() / kBytesPerSecond);
+  switch (try_in_child([&] { static_cast<void>(decode_draco_blob(blob, place)); }, seconds)) {
+    case TrialEnd::kCrashed:
+      return bad_input(place, "Draco crashes on it");
+    case TrialEnd::kTooLong:
+      return bad_input(place, fmt::format("Draco takes more than {} s for {} bytes", seconds, blob.size()));
+    case TrialEnd::kNoProcess:
+      return Error{ErrorCode::kLimit, place, "the system has no process to try Draco in"};
+    case TrialEnd::kWell:
+      break;
+  }
+  return decode_draco_blob(blob, place);
 }
 
 bool copy_draco_values(const draco::Mesh& mesh, const draco::PointAttribute& attribute, ComponentType component,

@@ -25,6 +25,12 @@ Result<Done> decode_draco(Document& document);
 /// The mesh in one blob; `place` goes into errors.
 Result<std::unique_ptr<draco::Mesh>> decode_draco_blob(std::span<const std::uint8_t> blob, const std::string& place);
 
+/// The same for a blob that anyone may have made. Draco takes some numbers that it finds in one for the length of a
+/// loop or of an array, and does not compare them with anything; so it reads the blob in a process of its own first
+/// (child_trial.h), which may take a second of CPU time, and one more for every 64 KiB.
+Result<std::unique_ptr<draco::Mesh>> decode_foreign_draco_blob(std::span<const std::uint8_t> blob,
+                                                               const std::string& place);
+
 /// The values of an attribute at every point of `mesh`, converted to `component`, one row every `stride` bytes of
 /// `bytes`, [num_points * stride]. False if they cannot be converted.
 bool copy_draco_values(const draco::Mesh& mesh, const draco::PointAttribute& attribute, ComponentType component,

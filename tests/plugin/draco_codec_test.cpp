@@ -140,6 +140,22 @@ TEST(DracoCodec, CountsMustAgreeWithTheAccessors) {
   EXPECT_NE(verdict(builder), "fine");
 }
 
+// Found by fuzz_draco: 525 bytes say that two thousand million orientations of triangles follow, and Draco reads on
+// beyond the end of the blob, for seconds.
+TEST(DracoCodec, ABlobThatSaysItHoldsMoreOrientationsThanItHasBytesIsRefused) {
+  const std::string blob =
+      "RFJBQ08CAgEBAAAAGSADIAQACl/71FN9qlrVpwr/ARH/AsxC/wLMQv8CzEIE/wAAAAAAAQAAAgAAAQAJAwAAAgEBCQMAAQMBAwkC"
+      "AAICAQICBAEDAQEBAQAJB5ECC7EHIQWhMAawABbeimgUhgxO0rSUwNrpcOiS8uHnXoE4dKi/wbHn28TrcLyHvp3mG/9Xo1vKJAB0"
+      "cEBmq2kL3FitrGsqKB8cNl8aN1qPDAD9+TgvAAAAAP8AAACw63u/pQR/vy4Cbb/inPo/CAYDAQAKH30UhSsFaX+N95n8oU2tcpiS"
+      "p9afGv/V1tIjUMOn1la3+GrlGBbV4yTmp4Hj+KeGbX9d2v6pqVv/vuGpP/1qUpkD/wEAAP8AAABxBbl2auhKCQUBAQALEyEFB80M"
+      "kQKFKwao2nounX7BxiY/ikqb/////////x9o9PLBIfIMSpS3Ub/tSRvvCyfp97E6UK7/05J8hu7yEAbDjURGo6+kSy3J71bgQ8Ff"
+      "fwIXAAAAvQX7qAB2gAApAAAA/wMAAKUEf7//mn6/mFL/PwoBAQEACRORAikcfRTNDAhnyaZjRURSQUNPAgIBAQAAABkyMjIyMjIy"
+      "MjIyMjIyMjIy/wDE63C8h76d5hv/BqNbaSHPaZGy/gBFODI12R1N/lbDjUUGVWhCABQPkOCga/3/MKAT2bV333xrDgAAAAD9AAAA";
+  const auto bytes = read_uri("data:application/octet-stream;base64," + blob, {}, "blob");
+  ASSERT_TRUE(bytes);
+  EXPECT_EQ(decode_foreign_draco_blob(*bytes, "blob").error().text(), "blob: Draco takes more than 1 s for 525 bytes");
+}
+
 TEST(DracoCodec, BrokenBlobsAreRefused) {
   GltfBuilder builder = compressed({3});
   builder.json["bufferViews"][0]["byteLength"] = 20;
