@@ -65,6 +65,11 @@ Result<HdrImage> decode_hdr(std::span<const std::uint8_t> bytes, const std::stri
   constexpr std::uint64_t kBytesPerTexel = 2 * sizeof(radiosity::Rgb) + 4;
   const auto texel_count = static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
   if (const auto fits = memory.check(texel_count, kBytesPerTexel, place, "pixels"); !fits) return fits.error();
+  // Run lengths go up to 127, for each of four bytes.
+  if (texel_count > std::uint64_t{16} * bytes.size()) {
+    return bad_input(place,
+                     fmt::format("{} bytes cannot hold {} x {} pixels", bytes.size(), image.width, image.height));
+  }
   Source source{bytes};
   const std::unique_ptr<float, void (*)(void*)> pixels(
       stbi_loadf_from_callbacks(&kCallbacks, &source, &image.width, &image.height, &bands, 3), stbi_image_free);

@@ -26,11 +26,11 @@ struct ImageTarget {
   std::uint64_t max_pixels = kMaxPixels;
   std::uint64_t width = 0, height = 0;  ///< what the file says
 
-  /// Makes room; false if the image is empty or larger than allowed.
-  bool allocate(std::uint64_t said_width, std::uint64_t said_height) {
+  /// Makes room; false if the image is empty, larger than allowed, or has more than the `most` pixels it can have.
+  bool allocate(std::uint64_t said_width, std::uint64_t said_height, std::uint64_t most = kMaxPixels) {
     width = said_width;
     height = said_height;
-    if (width == 0 || height == 0 || is_too_large()) return false;
+    if (width == 0 || height == 0 || is_too_large() || width * height > most) return false;
     pixels.width = static_cast<int>(width);
     pixels.height = static_cast<int>(height);
     pixels.rgba.resize(width * height * 4);
@@ -38,6 +38,13 @@ struct ImageTarget {
   }
   bool is_too_large() const { return width > kMaxPixels || height > kMaxPixels || width * height > max_pixels; }
 };
+
+/// The most pixels that a PNG or JPEG of so many bytes can have: deflate makes up to 1032 bytes of one, of 8 pixels
+/// each, and JPEG less. What costs nothing is let through: a file may be cut off.
+std::uint64_t most_pixels_in(std::size_t bytes) {
+  constexpr std::uint64_t kFreePixels = std::uint64_t{1} << 24U, kMaxPixelsPerByte = std::uint64_t{1032} * 8;
+  return kFreePixels + kMaxPixelsPerByte * bytes;
+}
 
 // PNG. libpng leaves through longjmp, so nothing with a destructor lives in the function that is left.
 
@@ -70,7 +77,8 @@ bool read_png(png_structp png, png_infop info, PngSource& source, ImageTarget& t
   png_set_read_fn(png, &source, read_png_bytes);
   png_set_user_limits(png, 0x7fffffff, 0x7fffffff);
   png_read_info(png, info);
-  if (!target.allocate(png_get_image_width(png, info), png_get_image_height(png, info))) return false;
+  const std::uint64_t most = most_pixels_in(source.left.size());
+  if (!target.allocate(png_get_image_width(png, info), png_get_image_height(png, info), most)) return false;
   Pixels& pixels = target.pixels;
   expect_rgba(png, info);
   const std::size_t row_size = static_cast<std::size_t>(pixels.width) * 4;
@@ -112,6 +120,12 @@ struct JpegErrors {
 }
 void ignore_jpeg_message(j_common_ptr) {}
 
+/// Every scan of a progressive image goes over all of it, and may be a few bytes long: a hundred, where ten are usual.
+void stop_after_many_scans(j_common_ptr jpeg) {
+  constexpr int kMaxScans = 100;
+  if (reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number > kMaxScans) leave_jpeg(jpeg);
+}
+
 /// CMYK as Adobe stores it, inverted, to RGB.
 void cmyk_to_rgba(std::uint8_t* row, int width, bool inverted) {
   for (int x = 0; x < width; ++x) {
@@ -130,7 +144,7 @@ bool read_jpeg(jpeg_decompress_struct& jpeg, std::span<const std::uint8_t> bytes
   if (jpeg_read_header(&jpeg, TRUE) != JPEG_HEADER_OK) return false;
   const bool cmyk = jpeg.jpeg_color_space == JCS_CMYK || jpeg.jpeg_color_space == JCS_YCCK;
   jpeg.out_color_space = cmyk ? JCS_CMYK : JCS_EXT_RGBA;
-  if (!target.allocate(jpeg.image_width, jpeg.image_height)) return false;
+  if (!target.allocate(jpeg.image_width, jpeg.image_height, most_pixels_in(bytes.size()))) return false;
   Pixels& pixels = target.pixels;
   jpeg_start_decompress(&jpeg);
   if (jpeg.output_components != 4) return false;
@@ -147,12 +161,15 @@ bool read_jpeg(jpeg_decompress_struct& jpeg, std::span<const std::uint8_t> bytes
 bool decode_jpeg(std::span<const std::uint8_t> bytes, ImageTarget& target) {
   jpeg_decompress_struct jpeg{};
   JpegErrors errors{};
+  jpeg_progress_mgr scans{};
+  scans.progress_monitor = stop_after_many_scans;
   jpeg.err = jpeg_std_error(&errors.manager);
   errors.manager.error_exit = leave_jpeg;
   errors.manager.output_message = ignore_jpeg_message;
   volatile bool decoded = false;
   if (setjmp(errors.leave) == 0) {
     jpeg_create_decompress(&jpeg);
+    jpeg.progress = &scans;
     try {
       decoded = read_jpeg(jpeg, bytes, target);
     } catch (const std::bad_alloc&) {

@@ -68,6 +68,8 @@ TEST(DecodeHdr, RefusesWhatBreaksOff) {
 TEST(DecodeHdr, RefusesWhatIsTooLargeBeforeDecodingIt) {
   EXPECT_EQ(fault_of(hdr_header(16385, 2)), "sky.hdr: the HDR image is larger than 16384 x 8192");
   EXPECT_EQ(fault_of(hdr_header(2, 8193)), "sky.hdr: the HDR image is larger than 16384 x 8192");
+  const Bytes header = hdr_header(16384, 8192);
+  EXPECT_EQ(fault_of(header), "sky.hdr: " + std::to_string(header.size()) + " bytes cannot hold 16384 x 8192 pixels");
   EXPECT_THAT(fault_of(hdr_header(2'000'000'000, 2'000'000'000)), HasSubstr("sky.hdr"));
 }
 

@@ -5,6 +5,7 @@
 #include <png.h>
 #include <webp/encode.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -31,7 +32,7 @@ Bytes encode_png_as(png_uint_32 format, png_uint_32 width, png_uint_32 height, c
   return bytes;
 }
 
-Bytes encode_jpeg(J_COLOR_SPACE space, int components, const std::vector<std::uint8_t>& row) {
+Bytes encode_jpeg(J_COLOR_SPACE space, int components, const std::vector<std::uint8_t>& row, bool progressive = false) {
   jpeg_compress_struct jpeg{};
   jpeg_error_mgr errors{};
   jpeg.err = jpeg_std_error(&errors);
@@ -45,6 +46,7 @@ Bytes encode_jpeg(J_COLOR_SPACE space, int components, const std::vector<std::ui
   jpeg.in_color_space = space;
   jpeg_set_defaults(&jpeg);
   jpeg_set_quality(&jpeg, 100, TRUE);
+  if (progressive) jpeg_simple_progression(&jpeg);
   jpeg_start_compress(&jpeg, TRUE);
   JSAMPROW pointer = const_cast<JSAMPROW>(row.data());
   jpeg_write_scanlines(&jpeg, &pointer, 1);
@@ -180,6 +182,27 @@ TEST(ImageDecode, SizesThatDoNotFitIntoMemoryAreALimit) {
 TEST(ImageDecode, OtherFormatsAreNamed) {
   EXPECT_EQ(image_verdict({0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb}), "images[0]: KTX2 textures are not supported");
   EXPECT_EQ(image_verdict({}), "images[0]: is neither PNG, JPEG nor WebP");
+}
+
+// Found by fuzz_image: 673 bytes became 42 million grey pixels.
+TEST(ImageDecode, AJpegOfMorePixelsThanItsBytesCanHoldIsRefused) {
+  Bytes jpeg = encode_jpeg(JCS_GRAYSCALE, 1, {90});
+  const Bytes marker = {0xff, 0xc0};
+  const auto frame = std::search(jpeg.begin(), jpeg.end(), marker.begin(), marker.end());
+  const Bytes size = {0x20, 0x00, 0x40, 0x00};  // 8192 rows of 16384
+  std::copy(size.begin(), size.end(), frame + 5);
+  EXPECT_EQ(image_verdict(jpeg), "images[0]: the JPEG image is broken");
+}
+
+// Each scan costs as much as the whole image, however short it is.
+TEST(ImageDecode, AJpegOfHundredsOfScansIsRefused) {
+  Bytes jpeg = encode_jpeg(JCS_GRAYSCALE, 1, {90}, true);
+  const Bytes marker = {0xff, 0xda};
+  const auto last = std::find_end(jpeg.begin(), jpeg.end(), marker.begin(), marker.end());
+  const Bytes scan(last, jpeg.end() - 2);
+  EXPECT_EQ(image_verdict(jpeg), "fine");
+  for (int k = 0; k < 300; ++k) jpeg.insert(jpeg.end() - 2, scan.begin(), scan.end());
+  EXPECT_EQ(image_verdict(jpeg), "images[0]: the JPEG image is broken");
 }
 
 }  // namespace
