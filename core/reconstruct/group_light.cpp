@@ -1,8 +1,8 @@
 #include "core/reconstruct/group_light.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
+
+#include "core/parallel.h"
 
 namespace radiosity {
 namespace {
@@ -38,7 +38,7 @@ std::vector<Rgb> light_of_group(const SampleLog& log, const Samples& samples, st
 
 std::vector<std::vector<Rgb>> share_among_groups(std::span<const Rgb> whole, std::vector<std::vector<Rgb>> free,
                                                  std::span<const Rgb> dimmers) {
-  tbb::parallel_for(std::size_t{0}, whole.size(), [&](std::size_t v) {
+  in_parallel(0, whole.size(), [&](std::size_t v) {
     for (int band = 0; band < 3; ++band) share_band(double{whole[v][band]}, v, band, dimmers, free);
   });
   return free;

@@ -6,7 +6,9 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace gltf_radiosity;
-  const auto read = behind_firewall([&] { return read_document({data, size}, {}); });
+  const auto read = behind_firewall([&] {
+    return read_document({data, size}, {}, {.max_memory = std::uint64_t{256} << 20U});
+  });
   if (!read) return read.error().code == ErrorCode::kInternal ? (__builtin_trap(), 0) : 0;
   std::vector<Warning> warnings;
   const auto imported = behind_firewall([&] { return import_scene(*read, {}, warnings); });
