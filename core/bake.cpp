@@ -47,7 +47,7 @@ std::vector<Rgb> sent_light(const Patches& patches, std::vector<Rgb> radiosity, 
   return radiosity;
 }
 
-/// Room for the light of samples by light groups, and what patches send of each; `direct` is their direct light.
+/// What patches send of each group, and room for what samples see of it; `direct` is the direct light of the groups.
 SampleLog make_log(const Scene& scene, const Patches& patches, std::span<const Rgb> direct, std::uint32_t sweeps,
                    LightParts parts, RowCache& rows, const Progress& progress) {
   const std::vector<std::uint32_t> glow_group = glow_groups(scene, patches);
@@ -61,6 +61,22 @@ SampleLog make_log(const Scene& scene, const Patches& patches, std::span<const R
     }
   }
   return log;
+}
+
+/// What samples have seen of each group -> its light at the vertices.
+void finish_groups(const Scene& scene, const DisplayMesh& display, const SampleLog& log, const Reconstruction& light,
+                   const BakeOptions& options, Bake& result) {
+  if (options.fit == Fit::kInterpolate) {
+    result.group_irradiance = light_of_groups(scene, display, log, light);
+    return;
+  }
+  const GroupFits fits = fit_groups(display, log, light.samples);
+  result.group_irradiance = light_of_groups(scene, fits, light.irradiance);
+  if (!options.keep_transport) return;
+  result.transport.emplace();
+  result.transport->group_count = log.group_count;
+  result.transport->parts = options.parts;
+  keep_fits(fits.fit, fits.values, *result.transport);
 }
 
 BakeReport describe(const RefinedMesh& mesh, const Patches& patches, const Solution& solution,
@@ -136,10 +152,17 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
   if (options.light_groups) {
     const std::uint32_t sweeps = solution.steps / std::max(1U, patches.patch_count());
     log = make_log(scene, patches, group_direct, sweeps, options.parts, rows, progress);
+    if (options.keep_transport) {
+      log.cell_count = static_cast<std::uint32_t>(sample_hemicube.delta_form_factors().size());
+      log.max_cell_bytes = options.row_cache_bytes / 2;
+    }
   }
   const Gatherer gatherer = gatherer_of(sent, options.light_groups ? &log : nullptr);
   Reconstruction light = reconstruct(display, gatherer, options.fit, options.adapt, progress);
-  if (options.light_groups) result.group_irradiance = light_of_groups(scene, display, log, light, options.fit);
+  if (options.light_groups) finish_groups(scene, display, log, light, options, result);
+  if (result.transport && keep_exchange(scene, patches, rows, group_direct, *result.transport)) {
+    keep_samples(display.mesh(), light.samples, log, sample_hemicube, *result.transport);
+  }
 
   const EnergyBalance balance = energy_balance(problem, solution, rows);
   result.report = describe(display.mesh(), patches, solution, balance, light.samples);

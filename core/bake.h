@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/light_groups.h"
+#include "core/light_transport.h"
 #include "core/mesh/display_mesh.h"
 #include "core/mesh/refined_mesh.h"
 #include "core/mesh/subdivide_uniform.h"
@@ -32,6 +34,7 @@ struct BakeOptions {
   Solver solver = Solver::kGathering;
   Fit fit = Fit::kLeastSquares;
   bool light_groups = false;             ///< the light of each group too; needs Solver::kGathering
+  bool keep_transport = false;           ///< and what other lights and reflectances take; needs Fit::kLeastSquares too
   bool show_reached_side = false;        ///< of surfaces that are lit on both sides and whose front no light reaches
   LightParts parts = LightParts::kBoth;  ///< of the result; the parts add up to both, but for the noise of each fit
   float residual = 0.001F;               ///< stop when this share of the emitted flux is still unshot, (0,1)
@@ -80,6 +83,9 @@ struct Bake {
   /// If asked for: H of each light group before it is dimmed, [light_group_count()][vertex_count], lx, never negative.
   /// Each times its dimmer, they add up to `irradiance`.
   std::vector<std::vector<Rgb>> group_irradiance;
+  /// If asked for. Without rows where they, or what samples see, would have taken more than half of
+  /// BakeOptions::row_cache_bytes.
+  std::optional<KeptTransport> transport;
   BakeReport report;
 };
 

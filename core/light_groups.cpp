@@ -48,16 +48,29 @@ std::vector<Rgb> dimmers_of(const Scene& scene, std::uint32_t group_count) {
   return dimmers;
 }
 
-std::vector<std::vector<Rgb>> light_of_groups(const Scene& scene, const DisplayMesh& display, const SampleLog& log,
-                                              const Reconstruction& light, Fit fit) {
+GroupFits fit_groups(const DisplayMesh& display, const SampleLog& log, const Samples& samples) {
   const RefinedMesh& mesh = display.mesh();
-  const VertexFit vertex_fit = make_vertex_fit(mesh, light.samples, fit_options(display));
+  GroupFits fits{make_vertex_fit(mesh, samples, fit_options(display)), {}};
+  for (std::uint32_t g = 0; g < log.group_count; ++g) {
+    fits.values.push_back(fit_freely(mesh, samples, fits.fit, light_of_group(log, samples, g)));
+  }
+  return fits;
+}
+
+std::vector<std::vector<Rgb>> light_of_groups(const Scene& scene, const GroupFits& fits,
+                                              std::span<const Rgb> irradiance) {
+  std::vector<std::vector<Rgb>> free;
+  for (const std::vector<glm::dvec3>& value : fits.values) free.push_back(at_vertices(fits.fit.groups, value));
+  const auto group_count = static_cast<std::uint32_t>(free.size());
+  return share_among_groups(irradiance, std::move(free), dimmers_of(scene, group_count));
+}
+
+std::vector<std::vector<Rgb>> light_of_groups(const Scene& scene, const DisplayMesh& display, const SampleLog& log,
+                                              const Reconstruction& light) {
   std::vector<std::vector<Rgb>> free;
   for (std::uint32_t g = 0; g < log.group_count; ++g) {
-    const std::vector<Rgb> samples = light_of_group(log, light.samples, g);
-    free.push_back(fit == Fit::kInterpolate
-                       ? interpolate_vertices(mesh, mean_of_samples(light.samples, samples))
-                       : at_vertices(vertex_fit.groups, fit_freely(mesh, light.samples, vertex_fit, samples)));
+    const std::vector<Rgb> of_group = light_of_group(log, light.samples, g);
+    free.push_back(interpolate_vertices(display.mesh(), mean_of_samples(light.samples, of_group)));
   }
   return share_among_groups(light.irradiance, std::move(free), dimmers_of(scene, log.group_count));
 }

@@ -29,8 +29,18 @@ std::vector<std::uint32_t> glow_groups(const Scene& scene, const Patches& patche
 /// The dimmer of each of `group_count` groups.
 std::vector<Rgb> dimmers_of(const Scene& scene, std::uint32_t group_count);
 
-/// The light of each group at the vertices, as Bake::group_irradiance has it.
+/// How light of samples becomes light at vertices, and what it makes of each group: not cut off at zero, per smooth
+/// group of vertices.
+struct GroupFits {
+  VertexFit fit;
+  std::vector<std::vector<glm::dvec3>> values;
+};
+GroupFits fit_groups(const DisplayMesh& display, const SampleLog& log, const Samples& samples);
+
+/// The light of each group at the vertices, as Bake::group_irradiance has it, from fits or by interpolation.
+std::vector<std::vector<Rgb>> light_of_groups(const Scene& scene, const GroupFits& fits,
+                                              std::span<const Rgb> irradiance);
 std::vector<std::vector<Rgb>> light_of_groups(const Scene& scene, const DisplayMesh& display, const SampleLog& log,
-                                              const Reconstruction& light, Fit fit);
+                                              const Reconstruction& light);
 
 }  // namespace radiosity

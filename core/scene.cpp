@@ -178,6 +178,11 @@ Rgb mean_reflectance(const Scene& scene, std::uint32_t triangle, const SubTriang
   return glm::clamp(reflectance, 0.0F, kMaxReflectance);
 }
 
+Rgb undyed_reflectance(const Scene& scene, std::uint32_t triangle, const SubTriangle& part) {
+  const Surface& surface = surface_of(scene, triangle);
+  return surface.varies ? scene.detail->undyed_reflectance(triangle, part) : surface.undyed_reflectance;
+}
+
 Rgb mean_emission(const Scene& scene, std::uint32_t triangle, const SubTriangle& part) {
   const Surface& surface = surface_of(scene, triangle);
   const Rgb emission = surface.varies ? scene.detail->emission(triangle, part) : surface.emission;

@@ -40,6 +40,7 @@ struct Surface {
   bool varies = false;            ///< reflectance or emission change over the surface: ask Scene::detail
   bool see_through = false;       ///< not everywhere opaque: ask Scene::detail for the opacity at each hit
   std::uint32_t light_group = 0;  ///< that its emission belongs to
+  Rgb undyed_reflectance{1.0F};   ///< if its factor were white; unless it varies
 };
 
 /// The largest reflectance that light transport accepts: a closed room with more never grows dark.
@@ -54,6 +55,10 @@ class SurfaceDetail {
 
   /// Mean reflectance over a part of `triangle`, unitless.
   virtual Rgb reflectance(std::uint32_t triangle, const SubTriangle& part) const = 0;
+  /// The same if the factor of the surface were white: what its reflectance is in proportion to, band by band.
+  virtual Rgb undyed_reflectance(std::uint32_t triangle, const SubTriangle& part) const {
+    return reflectance(triangle, part);
+  }
   /// Mean emitted luminance over a part of `triangle`, cd/m2.
   virtual Rgb emission(std::uint32_t triangle, const SubTriangle& part) const = 0;
   /// How opaque `triangle` is at a point: 0 lets all light pass, 1 none. An alpha mask answers 0 or 1.
@@ -114,6 +119,9 @@ glm::vec3 point_at(const Scene& scene, std::uint32_t triangle, Barycentrics at);
 
 /// Reflectance averaged over a part of a triangle, at most kMaxReflectance per band.
 Rgb mean_reflectance(const Scene& scene, std::uint32_t triangle, const SubTriangle& part);
+
+/// The same if the factor of the surface were white, without a limit.
+Rgb undyed_reflectance(const Scene& scene, std::uint32_t triangle, const SubTriangle& part);
 
 /// Emitted luminance averaged over a part of a triangle, before it is dimmed, cd/m2.
 Rgb mean_emission(const Scene& scene, std::uint32_t triangle, const SubTriangle& part);

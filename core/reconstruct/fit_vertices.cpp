@@ -109,10 +109,10 @@ std::vector<glm::dvec3> fit_freely(const RefinedMesh& mesh, const Samples& sampl
   return value;
 }
 
-std::vector<Rgb> of_vertices(const SmoothGroups& groups, std::span<const glm::dvec3> value) {
-  std::vector<Rgb> irradiance(groups.group_of_vertex.size());
+std::vector<Rgb> of_vertices(std::span<const std::uint32_t> group_of_vertex, std::span<const glm::dvec3> value) {
+  std::vector<Rgb> irradiance(group_of_vertex.size());
   for (std::size_t v = 0; v < irradiance.size(); ++v) {
-    irradiance[v] = glm::max(Rgb(value[groups.group_of_vertex[v]]), Rgb(0.0F));
+    irradiance[v] = glm::max(Rgb(value[group_of_vertex[v]]), Rgb(0.0F));
   }
   return irradiance;
 }
@@ -125,7 +125,7 @@ std::vector<Rgb> fit_vertices(const RefinedMesh& mesh, const Samples& samples, c
       guess.empty() ? first_guess(mesh, samples, fit.groups, samples.irradiance) : by_group(fit.groups, guess);
   solve(fit.matrix, right, {}, options.max_iterations, value);
   hold_dark(fit.matrix, right, options.max_iterations, value);
-  return of_vertices(fit.groups, value);
+  return of_vertices(fit.groups.group_of_vertex, value);
 }
 
 }  // namespace radiosity

@@ -8,6 +8,7 @@
 // Kavan, Bargteil and Sloan. Least Squares Vertex Baking. 2011
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
@@ -45,6 +46,6 @@ std::vector<glm::dvec3> fit_freely(const RefinedMesh& mesh, const Samples& sampl
                                    std::span<const Rgb> irradiance);
 
 /// Values of smooth groups at the vertices, none below zero.
-std::vector<Rgb> of_vertices(const SmoothGroups& groups, std::span<const glm::dvec3> value);
+std::vector<Rgb> of_vertices(std::span<const std::uint32_t> group_of_vertex, std::span<const glm::dvec3> value);
 
 }  // namespace radiosity
