@@ -13,7 +13,7 @@ endif()
 install(TARGETS gltf_radiosity EXPORT gltf_radiosity_targets INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS gltf_radiosity_cli)
 install(FILES ${PROJECT_SOURCE_DIR}/plugin/gltf_radiosity.h ${PROJECT_SOURCE_DIR}/plugin/verify.h ${PROJECT_SOURCE_DIR}/plugin/view.h ${PROJECT_SOURCE_DIR}/plugin/whole_file.h
-              ${PROJECT_SOURCE_DIR}/plugin/result.h
+              ${PROJECT_SOURCE_DIR}/plugin/relight.h ${PROJECT_SOURCE_DIR}/plugin/result.h
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gltf_radiosity)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 

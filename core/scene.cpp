@@ -100,7 +100,6 @@ std::optional<std::string> validate_lights(const Scene& scene) {
 std::optional<std::string> validate_sky(const Scene& scene) { return validate(scene.sky); }
 
 std::optional<std::string> validate_groups(const Scene& scene) {
-  if (light_group_count(scene) > kMaxLightGroups) return "there are too many light groups";
   if (!scene.dimmers.empty() && scene.dimmers.size() < light_group_count(scene)) {
     return "there are not as many dimmers as light groups";
   }
@@ -130,7 +129,7 @@ std::uint32_t light_group_count(const Scene& scene) {
   std::uint32_t last = scene.sky.light_group;
   for (const Surface& surface : scene.surfaces) last = std::max(last, surface.light_group);
   for (const Light& light : scene.lights) last = std::max(last, light.light_group);
-  return last + 1;
+  return std::max(last + 1, static_cast<std::uint32_t>(scene.dimmers.size()));
 }
 
 Rgb dimmer_of(const Scene& scene, std::uint32_t light_group) {

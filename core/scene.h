@@ -17,8 +17,6 @@
 
 namespace radiosity {
 
-inline constexpr std::uint32_t kMaxLightGroups = 4096;
-
 /// Marks "no triangle", "no patch", "no vertex".
 inline constexpr std::uint32_t kNothing = 0xffffffffU;
 
@@ -99,7 +97,7 @@ struct Scene {
 /// Says what is wrong with a scene (an index out of range, a position that is not finite, ...), or nothing.
 std::optional<std::string> validate(const Scene& scene);
 
-/// One more than the largest light group of a surface, a light or the sky.
+/// As many as there are dimmers, or one more than the largest light group of a surface, a light or the sky.
 std::uint32_t light_group_count(const Scene& scene);
 
 /// Of a light group: by what its light is multiplied.

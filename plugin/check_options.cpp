@@ -51,6 +51,12 @@ Result<Done> check_options(const Options& options) {
     return refuse("--hemicube", "must be even and between 2 and 512");
   }
   if (!(options.residual > 0.0 && options.residual < 1.0)) return refuse("--residual", "must lie between 0 and 1");
+  if (!options.save_transport.empty() && options.solver != SolverMethod::kGathering) {
+    return refuse("--save-transport", "needs --solver gathering: the light of each source must add up");
+  }
+  if (!options.save_transport.empty() && options.fit != FitMethod::kLeastSquares) {
+    return refuse("--save-transport", "needs --fit least-squares");
+  }
   if (options.max_patches < 0) return refuse("--max-patches", "must not be negative");
   if (options.max_memory != 0 && options.max_memory < (std::uint64_t{64} << 20U)) {
     return refuse("--max-memory", "must be at least 64M");

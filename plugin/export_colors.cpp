@@ -72,7 +72,8 @@ std::vector<Rgb> vertex_means(const Source& source, const Value& value) {
   return sums;
 }
 
-/// What the surface emits at every vertex, and by how much COLOR_0 must exceed it because a texture multiplies it.
+/// What the surface emits at every vertex before it is dimmed, and by how much COLOR_0 must exceed it because a texture
+/// multiplies it.
 struct Emission {
   std::vector<Rgb> luminance;  ///< cd/m2; empty if the material emits nothing
   std::vector<Rgb> texture;    ///< mean base colour texture; empty without one
@@ -82,7 +83,7 @@ Emission emission(const Source& source, std::uint32_t instance) {
   Emission result;
   if (source.material.emissive == Rgb(0.0F) || !source.parts.emission) return result;
   if (source.texture == ShownTexture::kEmissive) {
-    result.luminance.assign(source.refined.vertices.size(), source.material.emissive);
+    result.luminance.assign(source.refined.vertices.size(), source.material.emissive + source.material.dimmed);
     return result;
   }
   result.luminance = vertex_means(source, [&](std::uint32_t triangle, const radiosity::SubTriangle& part) {
@@ -130,6 +131,32 @@ void add_reflectance(const Rgb& rho, bool is_first, VertexColors& colors) {
   if (colors.reflectance && *colors.reflectance != rho) colors.reflectance.reset();
 }
 
+/// By what the emission of an instance is dimmed.
+Rgb dimmer_of_emission(const Source& source) {
+  const radiosity::Scene& scene = source.scene.scene;
+  const std::uint32_t surface = scene.surface_of_triangle[source.instance.first_triangle];
+  return radiosity::dimmer_of(scene, scene.surfaces[surface].light_group);
+}
+
+ColorTerms terms_of_instance(const Source& source, std::uint32_t instance) {
+  const std::vector<glm::vec4> old = old_colors(source);
+  const Emission emitted = emission(source, instance);
+  const std::vector<Rgb> diffuse = diffuse_share(source, instance), blurred = base_color_over_emissive(source);
+  const bool keeps_alpha = source.material.alpha_mode != AlphaMode::kOpaque;
+  ColorTerms terms;
+  terms.areas = vertex_areas(source);
+  for (std::size_t v = 0; v < old.size(); ++v) {
+    terms.undyed.push_back(Rgb(old[v]) * (diffuse.empty() ? Rgb(1.0F) : diffuse[v]) *
+                           (blurred.empty() ? Rgb(1.0F) : blurred[v]));
+    const Rgb luminance = emitted.luminance.empty() ? Rgb(0.0F) : emitted.luminance[v];
+    const Rgb texture = emitted.texture.empty() ? Rgb(1.0F) : glm::max(emitted.texture[v], Rgb(kDarkestTexture));
+    terms.emission.push_back(luminance / texture);
+    terms.alpha.push_back(keeps_alpha ? old[v].a : 1.0F);
+    terms.places.push_back(number_of(source.mesh.positions[source.refined.vertices[v]]));
+  }
+  return terms;
+}
+
 VertexColors colors_of_instance(const Source& source, const radiosity::Bake& bake, std::uint32_t instance) {
   const std::vector<glm::vec4> old = old_colors(source);
   const std::vector<float> areas = vertex_areas(source);
@@ -137,6 +164,7 @@ VertexColors colors_of_instance(const Source& source, const radiosity::Bake& bak
   const std::vector<Rgb> diffuse = diffuse_share(source, instance);
   const std::vector<Rgb> blurred = base_color_over_emissive(source);
   const bool keeps_alpha = source.material.alpha_mode != AlphaMode::kOpaque;
+  const Rgb dimmer = dimmer_of_emission(source);
   const Rgb factor = source.parts.base_color ? Rgb(source.material.base_color_factor) : Rgb(1.0F);
 
   VertexColors colors;
@@ -150,7 +178,7 @@ VertexColors colors_of_instance(const Source& source, const radiosity::Bake& bak
     Rgb shown = radiosity::reflected_luminance(rho, bake.irradiance[source.refined.vertices[v]]);
 
     // Emitted.
-    const Rgb luminance = emitted.luminance.empty() ? Rgb(0.0F) : emitted.luminance[v];
+    const Rgb luminance = emitted.luminance.empty() ? Rgb(0.0F) : emitted.luminance[v] * dimmer;
     const Rgb texture = emitted.texture.empty() ? Rgb(1.0F) : glm::max(emitted.texture[v], Rgb(kDarkestTexture));
     shown += luminance / texture;
 
@@ -197,6 +225,12 @@ std::vector<VertexColors> vertex_colors(const ImportedScene& scene, const radios
   return colors;
 }
 
+ColorTerms color_terms(const ImportedScene& scene, const radiosity::Bake& bake, const RefinedPrimitive& refined,
+                       std::uint32_t instance, const ColorParts& parts, ShownTexture texture) {
+  const PrimitiveInstance& own = scene.instances[instance];
+  return terms_of_instance({scene, bake.mesh, own, scene.materials[own.material], refined, parts, texture}, instance);
+}
+
 Rgb brightest(const VertexColors& colors, std::span<const std::uint32_t> kept, float k) {
   constexpr float kLeast = 0x1p-16F;
   Rgb most(0.0F);
@@ -209,8 +243,7 @@ Rgb brightest(const VertexColors& colors, std::span<const std::uint32_t> kept, f
   return most;
 }
 
-std::size_t export_color_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors,
-                                  std::span<const std::uint32_t> kept, const Rgb& k, ColorType type) {
+RawAccessor color_rows(const VertexColors& colors, const Rgb& k, ColorType type) {
   // Expose and clamp.
   std::vector<float> values;
   values.reserve(colors.unexposed.size() * 4);
@@ -225,9 +258,12 @@ std::size_t export_color_accessor(Document& document, BufferBuilder& buffer, con
                                   : type == ColorType::kU16 ? ComponentType::kU16
                                                             : ComponentType::kU8;
   const bool normalized = type != ColorType::kFloat;
-  const RawAccessor raw{component, 4, normalized, colors.unexposed.size(),
-                        encode_floats(values, component, normalized)};
-  return append_accessor(document, buffer, picked(raw, kept), BufferTarget::kVertices);
+  return {component, 4, normalized, colors.unexposed.size(), encode_floats(values, component, normalized)};
+}
+
+std::size_t export_color_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors,
+                                  std::span<const std::uint32_t> kept, const Rgb& k, ColorType type) {
+  return append_accessor(document, buffer, picked(color_rows(colors, k, type), kept), BufferTarget::kVertices);
 }
 
 void note_reflectance(const VertexColors& colors, Json& primitive) {
@@ -244,16 +280,18 @@ std::string radiance_semantic(const Options& options) {
   return options.radiance_attribute.starts_with('_') ? options.radiance_attribute : "_" + options.radiance_attribute;
 }
 
-std::size_t export_radiance_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors,
-                                     std::span<const std::uint32_t> kept, float k) {
+RawAccessor radiance_rows(const VertexColors& colors, float k) {
   std::vector<float> values;
   values.reserve(colors.unexposed.size() * 3);
   for (const glm::vec4& color : colors.unexposed) {
     for (int band = 0; band < 3; ++band) values.push_back(color[band] * k);
   }
-  const RawAccessor raw{ComponentType::kF32, 3, false, colors.unexposed.size(),
-                        encode_floats(values, ComponentType::kF32, false)};
-  return append_accessor(document, buffer, picked(raw, kept), BufferTarget::kVertices);
+  return {ComponentType::kF32, 3, false, colors.unexposed.size(), encode_floats(values, ComponentType::kF32, false)};
+}
+
+std::size_t export_radiance_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors,
+                                     std::span<const std::uint32_t> kept, float k) {
+  return append_accessor(document, buffer, picked(radiance_rows(colors, k), kept), BufferTarget::kVertices);
 }
 
 Result<Done> check_attribute_is_free(const Document& document, const ImportedScene& scene, const Options& options) {

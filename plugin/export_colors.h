@@ -54,10 +54,26 @@ std::vector<VertexColors> vertex_colors(const ImportedScene& scene, const radios
                                         std::span<const RefinedPrimitive> refined, const ColorParts& parts = {},
                                         std::span<const ShownTexture> textures = {});
 
+/// What COLOR_0 is made of at each output vertex of an instance, kept or not, whatever the light:
+/// undyed x base colour factor x H / pi + emission.
+struct ColorTerms {
+  std::vector<radiosity::Rgb> undyed;
+  std::vector<radiosity::Rgb> emission;  ///< before it is dimmed, cd/m2
+  std::vector<float> alpha, areas;       ///< areas in m2
+  std::vector<std::uint32_t> places;     ///< as in VertexColors
+};
+ColorTerms color_terms(const ImportedScene& scene, const radiosity::Bake& bake, const RefinedPrimitive& refined,
+                       std::uint32_t instance, const ColorParts& parts, ShownTexture texture);
+
 // Of a primitive that was simplified only the vertices `kept` are written (RefinedPrimitive); all if that is empty.
 
 /// The brightest of each band at exposure k, within [2^-16, 1]; 1 where a band is black.
 radiosity::Rgb brightest(const VertexColors& colors, std::span<const std::uint32_t> kept, float k);
+
+/// k x colours clamped to [0,1], RGBA.
+RawAccessor color_rows(const VertexColors& colors, const radiosity::Rgb& k, ColorType type);
+/// k x colours, floats without a limit, RGB.
+RawAccessor radiance_rows(const VertexColors& colors, float k);
 
 /// Appends an accessor with k x colours clamped to [0,1] and returns its index. 8 bits are dithered: by less than a
 /// step, and what lies on a step stays.

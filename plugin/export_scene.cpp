@@ -91,8 +91,7 @@ std::vector<radiosity::ExposureSample> samples_of(const std::vector<VertexColors
 std::vector<VertexColors> exposed_colors(const ImportedScene& scene, const radiosity::Bake& bake,
                                          const std::vector<RefinedPrimitive>& refined, const Options& options,
                                          std::vector<ShownTexture>& textures, ExportReport& report) {
-  const bool unlit = options.target == Target::kUnlit;
-  const ColorParts parts{unlit, unlit && options.bake != BakedLight::kIndirect};
+  const ColorParts parts = color_parts(options);
   std::vector<VertexColors> colors = vertex_colors(scene, bake, refined, parts);
   report.exposure = options.exposure.value_or(radiosity::automatic_exposure(samples_of(colors)));
   const auto k = static_cast<float>(report.exposure);
@@ -193,6 +192,11 @@ void count(const PrimitiveInstance& instance, const RefinedPrimitive& refined, E
 
 }  // namespace
 
+ColorParts color_parts(const Options& options) {
+  const bool unlit = options.target == Target::kUnlit;
+  return {unlit, unlit && options.bake != BakedLight::kIndirect};
+}
+
 ExportReport export_scene(Document& document, BufferBuilder& buffer, const ImportedScene& scene,
                           const radiosity::Bake& bake, const Options& options, std::vector<Warning>& warnings,
                           const radiosity::Progress& progress) {
@@ -222,6 +226,7 @@ ExportReport export_scene(Document& document, BufferBuilder& buffer, const Impor
     if (!instance.receives) continue;
     const Rgb factor = style.scale_to_factor ? brightest(colors[i], refined[i].kept, k) : Rgb(1.0F);
     baked.push_back({meshes[i], instance.primitive, instance.material, factor});
+    report.colors.push_back({static_cast<std::uint32_t>(i), meshes[i], instance.primitive, factor});
     Json primitive = primitive_json(document.json, baked.back());
     if (unlit || factor != Rgb(1.0F)) drop_variants(primitive, instance, warnings);
     if (refined[i].changed) export_geometry(document, buffer, instance, refined[i], primitive);
@@ -237,6 +242,8 @@ ExportReport export_scene(Document& document, BufferBuilder& buffer, const Impor
 
   assign_materials(document, scene, baked, textures, options.target, warnings);
   sign(document.json, report, options);
+  report.refined = std::move(refined);
+  report.textures = std::move(textures);
   return report;
 }
 

@@ -18,6 +18,7 @@
 #include "plugin/memory_budget.h"
 #include "plugin/phases.h"
 #include "plugin/strip_lights.h"
+#include "plugin/transport_file.h"
 #include "plugin/write_gltf.h"
 
 namespace gltf_radiosity {
@@ -88,6 +89,7 @@ radiosity::BakeOptions bake_options(const Options& options, const ImportedScene&
   result.row_cache_bytes = static_cast<std::size_t>(memory.left() / 2);
   result.subdivide.max_elements =
       std::min<std::size_t>(result.subdivide.max_elements, memory.left() / 4 / kBytesPerElement);
+  result.light_groups = result.keep_transport = !options.save_transport.empty();
   result.parts = parts_of(options.bake);
   result.show_reached_side = options.two_sided == TwoSided::kLit;
   result.residual = static_cast<float>(options.residual);
@@ -111,8 +113,12 @@ Result<Report> bake_document(Document& document, BufferBuilder& added, const Opt
   Report report;
   report.warnings = document.warnings;
   progress.update("import", 0.0);
-  const Result<ImportedScene> scene = import_scene(document, options, report.warnings);
+  Result<ImportedScene> scene = import_scene(document, options, report.warnings);
   if (!scene) return scene.error();
+  if (!options.save_transport.empty()) {
+    if (const auto few = check_sources(*scene); !few) return few.error();
+    let_every_source_shine(*scene);
+  }
   if (const auto wrong = radiosity::validate(scene->scene)) return Error{ErrorCode::kInternal, "", *wrong};
   if (const auto free = check_attribute_is_free(document, *scene, options); !free) return free.error();
   add_figures(*scene, report);
@@ -130,14 +136,21 @@ Result<Report> bake_document(Document& document, BufferBuilder& added, const Opt
   add_warnings(bake.report, report.warnings);
 
   // Export.
-  const auto export_and_compress = [&] {
+  const auto export_and_compress = [&]() -> Result<Done> {
     const ExportReport exported = export_scene(document, added, *scene, bake, options, report.warnings, progress);
     if (options.strip_lights) strip_lights(document);
     progress.update("export", 1.0);
+    add_figures(exported, report);
+    if (bake.transport) {
+      progress.update("transport", 0.0);
+      const SavedBake saved{document, added, *scene, bake, exported, options};
+      if (auto done = save_transport(saved, report); !done) return done;
+      progress.update("transport", 1.0);
+    }
     compress_geometry(document, added, options, report.warnings, progress);
-    return exported;
+    return Done{};
   };
-  add_figures(radiosity::on_threads(options.threads, export_and_compress), report);
+  if (const auto done = radiosity::on_threads(options.threads, export_and_compress); !done) return done.error();
   add_figures(options, report);
   return report;
 }

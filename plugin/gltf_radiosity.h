@@ -97,6 +97,7 @@ struct Options {
   TwoSided two_sided = TwoSided::kFront;
   Target target = Target::kUnlit;  ///< kKeep: materials stay lit, and COLOR_0 is light without their base colour
   std::string radiance_attribute;  ///< name of a custom attribute for the light of COLOR_0, not clamped; empty: none
+  std::string save_transport;      ///< a file that relight.h changes the light by; empty: none
   bool strip_lights = false;       ///< leaves punctual and image based lights out of the output
   bool force = false;              ///< the output may replace the input, or a buffer or image of it
   std::vector<std::string> also_written;  ///< what the caller writes himself, as reports: refused if it is the input's
@@ -107,7 +108,7 @@ struct Options {
 /// Called from one thread at a time.
 struct Callbacks {
   /// `phase` is one of "read", "import", "cache", "subdivide", "patches", "direct", "sky", "solve", "gather", "fit",
-  /// "refine", "simplify", "export", "compress", "write"; `done` in [0,1].
+  /// "refine", "simplify", "export", "transport", "compress", "write"; `done` in [0,1].
   std::function<void(std::string_view phase, double done)> progress;
   /// Answer true to stop: the bake ends with ErrorCode::kCancelled within a second and writes nothing.
   std::function<bool()> cancelled;
@@ -159,6 +160,9 @@ struct Report {
   std::string compression;            ///< "draco", "meshopt" or empty
   std::string visibility;             ///< "raster" or "rays"
   std::string cache;                  ///< what the cache spared: "nothing", "form-factors" or "bake"; empty without one
+  std::uint64_t transport_bytes = 0;    ///< of the file for relighting; 0 without one
+  std::uint64_t transport_sources = 0;  ///< lights, emissive materials and skies that it can change
+  bool transport_reflectance = false;   ///< whether it can change what surfaces reflect
   std::vector<PhaseReport> phases;
   std::vector<Warning> warnings;
 };

@@ -56,13 +56,7 @@ radiosity::Light import_light(const Json& light, const glm::dmat4& world_from_no
   if (length > 0.0 && std::isfinite(length)) result.direction = glm::vec3(along / length);
 
   // Strength.
-  const float intensity = std::max(light.value("intensity", 1.0F), 0.0F) * unit_factor;
-  result.intensity = radiosity::Rgb(intensity);
-  if (const auto color = light.find("color"); color != light.end()) {
-    for (int band = 0; band < 3; ++band) {
-      result.intensity[band] *= std::max((*color)[static_cast<std::size_t>(band)].get<float>(), 0.0F);
-    }
-  }
+  result.intensity = color_of_light(light) * (std::max(light.value("intensity", 1.0F), 0.0F) * unit_factor);
   if (result.kind != Kind::kDirectional) result.range = std::max(light.value("range", 0.0F), 0.0F);
 
   // Cone: 0 <= inner < outer <= a quarter turn.
@@ -73,6 +67,18 @@ radiosity::Light import_light(const Json& light, const glm::dmat4& world_from_no
   result.inner_cone_cos = static_cast<float>(std::cos(inner));
   return result;
 }
+
+radiosity::Rgb color_of_light(const Json& light) {
+  radiosity::Rgb result(1.0F);
+  const auto color = light.find("color");
+  if (color == light.end()) return result;
+  for (int band = 0; band < 3; ++band) {
+    result[band] = std::max((*color)[static_cast<std::size_t>(band)].get<float>(), 0.0F);
+  }
+  return result;
+}
+
+radiosity::Rgb strength_of_light(const Json& light) { return import_light(light, glm::dmat4(1.0), 1.0F).intensity; }
 
 radiosity::Light import_sun(const Sun& sun) {
   const double elevation = glm::radians(sun.elevation_degrees), azimuth = glm::radians(sun.azimuth_degrees);

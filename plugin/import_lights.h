@@ -18,6 +18,11 @@ float light_unit_factor(const Document& document, LightUnits units, std::vector<
 /// Scale changes neither intensity nor range. Intensities times `unit_factor`.
 radiosity::Light import_light(const Json& light, const glm::dmat4& world_from_node, float unit_factor);
 
+/// The colour of a light, white unless it says otherwise; not negative.
+radiosity::Rgb color_of_light(const Json& light);
+/// Colour times intensity, in units of the file.
+radiosity::Rgb strength_of_light(const Json& light);
+
 /// REQUIRES: finite numbers.
 radiosity::Light import_sun(const Sun& sun);
 

@@ -47,6 +47,7 @@ struct ImportedMaterial {
   glm::vec4 base_color_factor{1.0F};
   TextureSlot base_color;        ///< sRGB; unused slots answer white
   glm::vec3 emissive{0.0F};      ///< factor times KHR_materials_emissive_strength, cd/m2
+  glm::vec3 dimmed{0.0F};        ///< what is added in bands where it is none and a dimmer takes it away
   TextureSlot emissive_texture;  ///< sRGB; empty if `emissive` is black
   Transmission transmission;
   float metallic = 1.0F;

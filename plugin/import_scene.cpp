@@ -70,6 +70,7 @@ class SceneImporter {
     if (auto done = check_that_there_is_work(); !done) return done.error();
     count_emissive_triangles();
     if (auto done = import_environment(); !done) return done.error();
+    name_emissive_materials();
     warn();
     return std::move(result_);
   }
@@ -99,7 +100,7 @@ class SceneImporter {
   Result<Done> import_node(const PlacedNodes& placed, std::uint32_t node) {
     const Json& json = document_.json["nodes"][node];
     if (const Json* light = extension_of(json, "KHR_lights_punctual")) {
-      import_punctual_light(*light, placed.world_from_node[node]);
+      import_punctual_light(*light, json.value("name", std::string()), placed.world_from_node[node]);
       if (!radiosity::is_in_reach(result_.scene.lights.back().position)) {
         return bad_input(place_of("nodes", node), "its light lies beyond 1e8 m");
       }
@@ -339,6 +340,7 @@ class SceneImporter {
           std::any_of(textures.begin(), textures.end(), [](const TextureSlot* slot) { return !!*slot; });
       surface.reflectance = Rgb(material.base_color_factor) * material.diffuse_share(1.0F);
       surface.emission = material.emissive;
+      surface.undyed_reflectance = Rgb(material.diffuse_share(1.0F));
       surface.varies = has_colors || textured || material.transmission;
     }
     const auto index = static_cast<std::uint32_t>(result_.scene.surfaces.size());
@@ -359,31 +361,79 @@ class SceneImporter {
 
   // Light.
 
-  void import_punctual_light(const Json& reference, const glm::dmat4& world_from_node) {
+  void import_punctual_light(const Json& reference, const std::string& node, const glm::dmat4& world_from_node) {
     if (!unit_factor_) unit_factor_ = light_unit_factor(document_, options_.light_units, warnings_);
     const Json& lights = document_.json["extensions"]["KHR_lights_punctual"]["lights"];
-    const Json& light = lights[reference["light"].get<std::size_t>()];
-    result_.scene.lights.push_back(import_light(light, world_from_node, *unit_factor_));
+    const auto index = reference["light"].get<std::uint32_t>();
+    result_.scene.lights.push_back(import_light(lights[index], world_from_node, *unit_factor_));
+    result_.scene.lights.back().light_group = source_of_light(lights, index, node);
     ++result_.punctual_light_count;
+  }
+
+  /// Nodes that hold one light are one source.
+  std::uint32_t source_of_light(const Json& lights, std::uint32_t index, const std::string& node) {
+    const auto [known, is_new] =
+        source_of_light_.try_emplace(index, static_cast<std::uint32_t>(result_.sources.size()));
+    if (is_new) {
+      const std::string name = lights[index].value("name", std::string());
+      result_.sources.push_back({.kind = LightSource::Kind::kLight,
+                                 .name = name.empty() ? place_of("lights", index) : name,
+                                 .nodes = {},
+                                 .source = index,
+                                 .strength = strength_of_light(lights[index]),
+                                 .color = color_of_light(lights[index]),
+                                 .core_units = *unit_factor_});
+    }
+    if (!node.empty()) result_.sources[known->second].nodes.push_back(node);
+    return known->second;
+  }
+
+  std::uint32_t add_source(LightSource::Kind kind, std::string name, const Rgb& strength) {
+    result_.sources.push_back({.kind = kind, .name = std::move(name), .nodes = {}, .source = {}, .strength = strength});
+    return static_cast<std::uint32_t>(result_.sources.size() - 1);
+  }
+
+  void name_emissive_materials() {
+    std::map<std::uint32_t, std::uint32_t> source_of_material;
+    for (std::uint32_t m = 0; m < result_.materials.size(); ++m) {
+      const ImportedMaterial& material = result_.materials[m];
+      if (!material.emits() || material.unlit) continue;
+      const Json& json = document_.json["materials"][*material.source];
+      const std::string name = json.value("name", std::string());
+      source_of_material[m] =
+          add_source(LightSource::Kind::kMaterial, name.empty() ? place_of("materials", *material.source) : name,
+                     material.emissive);
+      result_.sources.back().source = material.source;
+    }
+    for (std::size_t s = 0; s < result_.scene.surfaces.size(); ++s) {
+      const auto source = source_of_material.find(material_of_surface_[s]);
+      if (source != source_of_material.end()) result_.scene.surfaces[s].light_group = source->second;
+    }
   }
 
   Result<Done> import_environment() {
     radiosity::Scene& scene = result_.scene;
     auto sky = import_sky(document_, options_, warnings_);
     if (!sky) return sky.error();
-    if (*sky) scene.sky = std::move(**sky);
+    if (*sky) {
+      scene.sky = std::move(**sky);
+      const Rgb strength = scene.sky.has_map() ? Rgb(1.0F) : scene.sky.luminance;
+      scene.sky.light_group = add_source(LightSource::Kind::kSky, "sky", strength);
+    }
     if (options_.sun) {
       const Sun& sun = *options_.sun;
       const bool fine = std::isfinite(sun.elevation_degrees) && std::isfinite(sun.azimuth_degrees) &&
                         sun.illuminance_lux >= 0.0 && sun.illuminance_lux < 1e30;
       if (!fine) return Error{ErrorCode::kBadOption, "sun", "is negative or not finite"};
       scene.lights.push_back(import_sun(sun));
+      scene.lights.back().light_group = add_source(LightSource::Kind::kSun, "sun", scene.lights.back().intensity);
     }
     const bool has_lights = std::any_of(scene.lights.begin(), scene.lights.end(),
                                         [](const radiosity::Light& light) { return light.intensity != Rgb(0.0F); });
     if (has_lights || result_.emissive_triangle_count > 0 || *sky || options_.sun || !options_.default_sky)
       return Done{};
     scene.sky.luminance = Rgb(1.0F);
+    scene.sky.light_group = add_source(LightSource::Kind::kSky, "sky", scene.sky.luminance);
     warnings_.push_back({"default-sky", "", "the scene has no light; a white sky of 1 cd/m2 was put around it"});
     return Done{};
   }
@@ -456,6 +506,7 @@ class SceneImporter {
   ImportedScene result_;
   std::map<std::tuple<std::size_t, std::size_t, std::vector<double>>, PrimitiveGeometry> geometries_;
   std::map<int, std::uint32_t> material_of_source_;
+  std::map<std::uint32_t, std::uint32_t> source_of_light_;
   std::map<std::pair<std::uint32_t, bool>, std::uint32_t> surface_of_material_;
   std::vector<std::uint32_t> material_of_surface_;
   std::vector<std::uint8_t> surface_has_colors_;

@@ -9,6 +9,7 @@
 #include "core/scene.h"
 #include "plugin/document.h"
 #include "plugin/import_materials.h"
+#include "plugin/light_sources.h"
 #include "plugin/scene_detail.h"
 
 namespace gltf_radiosity {
@@ -37,7 +38,10 @@ struct ImportedScene {
   std::vector<float>
       vertex_colors;  ///< the source's COLOR_0, linear RGBA, [vertex_count * 4]; ones where there is none
   std::vector<std::int8_t> level_of_triangle;  ///< subdivision overrides, [triangle_count]
+  std::vector<LightSource> sources;            ///< each is a light group of the scene
   std::uint64_t punctual_light_count = 0, emissive_triangle_count = 0;
+
+  ImportedMaterial& material_of_surface(std::size_t surface) { return materials[detail->material_of_surface[surface]]; }
 };
 
 /// Walks a scene (options.scene; else the default, else the first, else every root): triangles, strips and fans of all

@@ -149,7 +149,10 @@ std::string to_json(const Report& report) {
                {"colorType", report.color_type},
                {"compression", report.compression},
                {"visibility", report.visibility},
-               {"cache", report.cache}};
+               {"cache", report.cache},
+               {"transportBytes", report.transport_bytes},
+               {"transportSources", report.transport_sources},
+               {"transportReflectance", report.transport_reflectance}};
 
   add_lists(report.phases, report.warnings, json);
   return json.dump(2, ' ', false, Json::error_handler_t::replace);

@@ -57,6 +57,19 @@ Rgb SceneDetail::shown_reflectance(std::uint32_t triangle, const SubTriangle& pa
   return Rgb(mean) * material.diffuse_share(texture_mean(material.metallic_roughness, triangle, part).z);
 }
 
+Rgb SceneDetail::undyed_shown(std::uint32_t triangle, const SubTriangle& part) const {
+  const ImportedMaterial& material = material_of(triangle);
+  const Barycentrics middle = (part.corner[0] + part.corner[1] + part.corner[2]) / 3.0F;
+  return Rgb(texture_mean(material.base_color, triangle, part) * vertex_color(triangle, middle)) *
+         material.diffuse_share(texture_mean(material.metallic_roughness, triangle, part).z);
+}
+
+// What a material lets through depends on its factor: there is no other that it is in proportion to.
+Rgb SceneDetail::undyed_reflectance(std::uint32_t triangle, const SubTriangle& part) const {
+  const ImportedMaterial& material = material_of(triangle);
+  return material.unlit || material.transmission ? Rgb(0.0F) : undyed_shown(triangle, part);
+}
+
 Rgb SceneDetail::reflectance(std::uint32_t triangle, const SubTriangle& part) const {
   const ImportedMaterial& material = material_of(triangle);
   const Rgb shown = shown_reflectance(triangle, part);
@@ -70,7 +83,7 @@ Rgb SceneDetail::reflectance(std::uint32_t triangle, const SubTriangle& part) co
 Rgb SceneDetail::emission(std::uint32_t triangle, const SubTriangle& part) const {
   const ImportedMaterial& material = material_of(triangle);
   if (material.unlit || !material.emits()) return Rgb(0.0F);
-  return material.emissive * Rgb(texture_mean(material.emissive_texture, triangle, part));
+  return (material.emissive + material.dimmed) * Rgb(texture_mean(material.emissive_texture, triangle, part));
 }
 
 float SceneDetail::opacity(std::uint32_t triangle, Barycentrics at) const {

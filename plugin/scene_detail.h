@@ -33,6 +33,7 @@ class SceneDetail : public radiosity::SurfaceDetail {
 
   /// What is reflected of the light that no ray carries through: mean base colour, less what is transmitted.
   radiosity::Rgb reflectance(std::uint32_t triangle, const radiosity::SubTriangle& part) const override;
+  radiosity::Rgb undyed_reflectance(std::uint32_t triangle, const radiosity::SubTriangle& part) const override;
   radiosity::Rgb emission(std::uint32_t triangle, const radiosity::SubTriangle& part) const override;
   float opacity(std::uint32_t triangle, radiosity::Barycentrics at) const override;
 
@@ -48,6 +49,8 @@ class SceneDetail : public radiosity::SurfaceDetail {
 
  private:
   const ImportedMaterial& material_of(std::uint32_t triangle) const;
+  /// shown_reflectance() less the base colour factor.
+  radiosity::Rgb undyed_shown(std::uint32_t triangle, const radiosity::SubTriangle& part) const;
   /// A texture of the triangle's material at a point, linear RGBA; white for an empty slot.
   glm::vec4 texel(const TextureSlot& slot, std::uint32_t triangle, radiosity::Barycentrics at) const;
   glm::vec2 texcoord(int set, std::uint32_t triangle, radiosity::Barycentrics at) const;

@@ -57,7 +57,7 @@ void add_errors(const ImportedScene& scene, const ImportedMaterial& material, co
   const glm::uvec3& corner = mesh.elements[element];
   const Rgb irradiance = (bake.irradiance[corner.x] + bake.irradiance[corner.y] + bake.irradiance[corner.z]) / 3.0F;
   const Rgb reflected = radiosity::reflected_luminance(scene.detail->shown_reflectance(triangle, whole), irradiance);
-  const Rgb emitted = mean_emission(scene.scene, triangle, whole);
+  const Rgb emitted = shown_emission(scene.scene, triangle, whole);
 
   // A texture times what is divided by its mean and cut off at white, less the truth, in which each has its own.
   const Texels mean = texels_in(scene, material, triangle, whole);

@@ -244,6 +244,12 @@ void add_output_options(CLI::App& app, CommandLine& line) {
   add_compression(app, options);
   app.add_flag_callback(
       "--force", [&options] { options.force = true; }, "OUT may replace IN, or a buffer or image of it (default: off)");
+  add(app,
+      {"--save-transport", "FILE.rad", "none",
+       "Keep what other lights and reflectances take, for gltf-radiosity relight. The light of each lamp and each "
+       "light is "
+       "then computed apart, which takes longer"},
+      [&options](const std::string& text) { options.save_transport = text; });
   add_json_option(app, line.json);
   add_progress_option(app, line.progress);
 }
@@ -323,6 +329,8 @@ void finish(Parser& parser) {
   // The report must not replace the scene
   const CommandLine& line = parser.line;
   if (line.input.empty() || line.output.empty()) throw CLI::ValidationError("IN and OUT must not be empty");
+  const std::string& transport = line.options.save_transport;
+  check_that_differs("--save-transport", transport, std::array{line.input, line.output, line.json});
   if (line.json == "-") return;
   check_that_differs("--json", line.json, std::array{line.input, line.output});
   options.also_written.push_back(line.json);

@@ -25,7 +25,8 @@ inline constexpr std::string_view kHelpFooter =
     "\n"
     "How good is a bake? gltf-radiosity verify IN OUT says it: see gltf-radiosity verify --help.\n"
     "What does it look like? gltf-radiosity view OUT --html FILE makes a page that shows it.\n"
-    "To bake a file that is called verify or view, write ./verify or ./view.\n"
+    "Other lights for a bake in a moment: gltf-radiosity relight FILE.rad OUT, see relight --help.\n"
+    "To bake a file that is called verify, view or relight, write ./verify and so on.\n"
     "\n"
     "Exit codes: 0 done; 1 bad input; 2 wrong usage; 3 cannot write; 4 limit reached; 70 a bug of ours;\n"
     "130 and 143 interrupted. The output appears whole or not at all.";

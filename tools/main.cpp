@@ -27,6 +27,7 @@
 #include "tools/memory_limit.h"
 #include "tools/messages.h"
 #include "tools/progress_bar.h"
+#include "tools/relight_command.h"
 #include "tools/report_file.h"
 #include "tools/verify_command.h"
 #include "tools/view_command.h"
@@ -171,7 +172,30 @@ int view_as_asked(const ViewCommand& command) {
   return kExitDone;
 }
 
+int relight_as_asked(const RelightCommand& command) {
+  const auto start = std::chrono::steady_clock::now();
+  Callbacks callbacks;
+  callbacks.cancelled = [] { return interrupted_by() != 0; };
+  const Result<RelightReport> result = relight_file(command.transport, command.output, command.options, callbacks);
+  if (!result) {
+    print(stderr, error_line(result.error().text()));
+    return report_to_programs(command.json, to_json(result.error()),
+                              exit_code_of(result.error().code, interrupted_by()));
+  }
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  for (const Warning& warning : result->warnings) print(stderr, warning_line(warning));
+  const int exit_code = report_to_programs(command.json, to_json(*result), kExitDone);
+  print(stderr, relit_line(command.output, *result, elapsed.count()));
+  return exit_code;
+}
+
 int run(std::span<const char* const> arguments) {
+  if (is_relight_command(arguments)) {
+    const auto parsed = parse_relight_command(arguments);
+    if (const Ending* const ending = std::get_if<Ending>(&parsed)) return end_at_once(*ending);
+    catch_interrupts();
+    return relight_as_asked(std::get<RelightCommand>(parsed));
+  }
   if (is_verify_command(arguments)) {
     const auto parsed = parse_verify_command(arguments);
     if (const Ending* const ending = std::get_if<Ending>(&parsed)) return end_at_once(*ending);

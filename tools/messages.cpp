@@ -31,6 +31,11 @@ std::string viewed_line(const std::string& html, const ViewReport& report) {
                      static_cast<double>(report.page_bytes) / kMega, static_cast<double>(report.scene_bytes) / kMega);
 }
 
+std::string relit_line(const std::string& output, const RelightReport& report, double seconds) {
+  return fmt::format("gltf-radiosity: {}: {} vertices, {:.0f} ms, exposure {:.4g} m2/cd\n", one_line(output),
+                     report.vertices, 1000.0 * seconds, report.exposure);
+}
+
 std::string verified_lines(const VerifyReport& report) {
   std::string written = "the file names none";
   if (report.written_exposure) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "plugin/relight.h"
 #include "plugin/verify.h"
 #include "plugin/view.h"
 #include "tools/command_line.h"
@@ -24,6 +25,9 @@ std::string summary_line(const std::string& output, const Report& report, double
 
 /// gltf-radiosity: page.html: 1.9 MB, with a scene of 0.8 MB
 std::string viewed_line(const std::string& html, const ViewReport& report);
+
+/// gltf-radiosity: relit.glb: 6789 vertices, 12 ms, exposure 1 m2/cd
+std::string relit_line(const std::string& output, const RelightReport& report, double seconds);
 
 /// relative RMSE 1.93 % (noise 0.40 % taken out), median ...
 /// exposure 0.998 m2/cd ...

@@ -7,7 +7,7 @@ const ajv = new Ajv2020({ strict: true, allErrors: true, allowUnionTypes: true }
 ajv.addSchema(schema, 'report')
 const any_kind = ajv.getSchema('report')
 
-// What is wrong with a report of a kind ("bake", "failure", "verify", "batch"), one line each; of any kind without one.
+// What is wrong with a report of a kind ("bake", "failure", "verify", "relight", "batch"), one line each; of any kind without one.
 export function wrong_with_report(report, kind) {
   const validate = kind ? ajv.getSchema(`report#/$defs/${kind}`) : any_kind
   if (validate(report)) return []

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "tools/command_line.h"
+#include "tools/relight_command.h"
 #include "tools/verify_command.h"
 #include "tools/view_command.h"
 
@@ -54,12 +55,16 @@ struct Command {
   std::size_t example_count;  ///< at least
 };
 std::vector<Command> commands() {
-  return {{help_text(), "command-line.md", 3}, {verify_help_text(), "verify.md", 3}, {view_help_text(), "view.md", 2}};
+  return {{help_text(), "command-line.md", 3},
+          {verify_help_text(), "verify.md", 3},
+          {view_help_text(), "view.md", 2},
+          {relight_help_text(), "relight.md", 3}};
 }
 
 bool is_accepted(const std::vector<const char*>& arguments) {
   if (is_verify_command(arguments)) return std::holds_alternative<VerifyCommand>(parse_verify_command(arguments));
   if (is_view_command(arguments)) return std::holds_alternative<ViewCommand>(parse_view_command(arguments));
+  if (is_relight_command(arguments)) return std::holds_alternative<RelightCommand>(parse_relight_command(arguments));
   return std::holds_alternative<CommandLine>(parse_command_line(arguments));
 }
 
@@ -114,7 +119,8 @@ TEST(HelpText, DescribesEveryOption) {
                                           "--strip-lights",
                                           "--scale-to-factor",
                                           "--no-scale-to-factor",
-                                          "--radiance-attribute"};
+                                          "--radiance-attribute",
+                                          "--save-transport"};
   EXPECT_EQ(names, expected);
 }
 
@@ -166,6 +172,7 @@ TEST(HelpText, StatesTheDefaultsOfTheLibrary) {
       {"--scale-to-factor", "off"},
       {"--no-scale-to-factor", "off"},
       {"--radiance-attribute", "none"},
+      {"--save-transport", "none"},
   };
   for (const auto& [option, preset] : expected) {
     const std::string description = description_of(option);
