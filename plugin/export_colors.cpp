@@ -125,12 +125,6 @@ std::uint32_t number_of(const glm::vec3& position) {
   return random.bits();
 }
 
-/// Keeps the reflectance as long as it is the same at every vertex.
-void add_reflectance(const Rgb& rho, bool is_first, VertexColors& colors) {
-  if (is_first) colors.reflectance = rho;
-  if (colors.reflectance && *colors.reflectance != rho) colors.reflectance.reset();
-}
-
 /// By what the emission of an instance is dimmed.
 Rgb dimmer_of_emission(const Source& source) {
   const radiosity::Scene& scene = source.scene.scene;
@@ -264,6 +258,11 @@ RawAccessor color_rows(const VertexColors& colors, const Rgb& k, ColorType type)
 std::size_t export_color_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors,
                                   std::span<const std::uint32_t> kept, const Rgb& k, ColorType type) {
   return append_accessor(document, buffer, picked(color_rows(colors, k, type), kept), BufferTarget::kVertices);
+}
+
+void add_reflectance(const Rgb& rho, bool is_first, VertexColors& colors) {
+  if (is_first) colors.reflectance = rho;
+  if (colors.reflectance && *colors.reflectance != rho) colors.reflectance.reset();
 }
 
 void note_reflectance(const VertexColors& colors, Json& primitive) {

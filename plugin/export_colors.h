@@ -80,6 +80,9 @@ RawAccessor radiance_rows(const VertexColors& colors, float k);
 std::size_t export_color_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors,
                                   std::span<const std::uint32_t> kept, const radiosity::Rgb& k, ColorType type);
 
+/// Keeps the reflectance as long as it is the same at every vertex.
+void add_reflectance(const radiosity::Rgb& rho, bool is_first, VertexColors& colors);
+
 /// Notes what turns COLOR_0 into illuminance, so that a page can show it (plugin/page/illuminance.js): `reflectance`
 /// and `emits` into the primitive's extras.radiosity.
 void note_reflectance(const VertexColors& colors, Json& primitive);

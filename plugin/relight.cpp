@@ -67,6 +67,8 @@ std::vector<VertexColors> changed_colors(const LoadedTransport& transport, const
       const Rgb rho = factor * transport.rows.undyed[row];
       const Rgb emitted = transport.rows.emission[row] * dimmer;
       const Rgb shown = radiosity::reflected_luminance(rho, irradiance[transport.rows.vertex[row]]) + emitted;
+      add_reflectance(changed.factor[primitive.material] * transport.rows.undyed[row], own.places.empty(), own);
+      own.emits = own.emits || emitted != Rgb(0.0F);
       own.unexposed.emplace_back(shown, transport.rows.alpha[row]);
       own.samples.push_back({shown, transport.rows.areas[row], emitted != Rgb(0.0F)});
       own.places.push_back(transport.rows.places[row]);
@@ -89,6 +91,26 @@ Result<Done> overwrite(Document& document, const Json& accessor_index, const Raw
   const auto first = static_cast<std::ptrdiff_t>(view.value("byteOffset", std::size_t{0}));
   std::ranges::copy(rows.bytes, buffer.begin() + first);
   return Done{};
+}
+
+/// Whether what a primitive is made of reflects or emits otherwise.
+bool is_changed(const TransportMaterial& material, std::size_t index, const ChangedLight& changed) {
+  return std::ranges::count(changed.materials, index) > 0 ||
+         (material.shines && std::ranges::count(changed.sources, *material.shines) > 0);
+}
+
+/// Writes down anew what the bake noted of changed materials.
+void renew_notes(LoadedTransport& transport, const ChangedLight& changed, const std::vector<VertexColors>& colors) {
+  const TransportDescription& description = transport.description;
+  for (std::size_t p = 0; p < colors.size(); ++p) {
+    const TransportPrimitive& primitive = description.primitives[p];
+    if (!is_changed(description.materials[primitive.material], primitive.material, changed)) continue;
+    Json& json = transport.document.json["meshes"][primitive.mesh]["primitives"][primitive.primitive];
+    Json& note = our_extras(json);
+    note.erase("reflectance");
+    note.erase("emits");
+    note_reflectance(colors[p], json);
+  }
 }
 
 Result<Done> write_colors(LoadedTransport& transport, const std::vector<VertexColors>& colors, float k) {
@@ -144,6 +166,7 @@ Result<RelightReport> relight_here(const std::string& transport_file, const std:
   const std::vector<VertexColors> colors = changed_colors(*transport, *changed, irradiance);
   choose_exposure(description, colors, options, report);
   if (auto done = write_colors(*transport, colors, static_cast<float>(report.exposure)); !done) return done.error();
+  renew_notes(*transport, *changed, colors);
   Document& document = transport->document;
   change_document(description, *changed, document.json);
   Json& signature = our_extras(document.json["asset"]);

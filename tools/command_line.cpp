@@ -331,6 +331,8 @@ void finish(Parser& parser) {
   if (line.input.empty() || line.output.empty()) throw CLI::ValidationError("IN and OUT must not be empty");
   const std::string& transport = line.options.save_transport;
   check_that_differs("--save-transport", transport, std::array{line.input, line.output, line.json});
+  if (line.batch && !transport.empty()) throw CLI::ValidationError("--save-transport", "is one file: excludes --batch");
+  if (!transport.empty()) options.also_written.push_back(transport);
   if (line.json == "-") return;
   check_that_differs("--json", line.json, std::array{line.input, line.output});
   options.also_written.push_back(line.json);

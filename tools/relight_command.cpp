@@ -18,8 +18,8 @@ namespace gltf_radiosity::tools {
 namespace {
 
 constexpr std::string_view kRelightDescription =
-    "Writes the glTF of a bake again, under other lights or with other reflectances: OUT shows what a bake\n"
-    "of the changed scene would, in a moment. FILE.rad is what that bake wrote with --save-transport.";
+    "Writes the glTF of a bake again, under other lights or with other reflectances: OUT shows what a\n"
+    "bake of the changed scene would, in a moment. FILE.rad is what that bake wrote (--save-transport).";
 
 constexpr std::string_view kRelightFooter =
     "Examples:\n"

@@ -144,7 +144,7 @@ void add_version_and_help(CLI::App& app) {
 void check_that_differs(const std::string& option, const std::string& file, std::span<const std::string> others) {
   const auto place = [](const std::string& name) { return std::filesystem::absolute(name).lexically_normal(); };
   for (const std::string& other : others) {
-    if (file.empty() || place(file) != place(other)) continue;
+    if (file.empty() || other.empty() || place(file) != place(other)) continue;
     throw CLI::ValidationError(option, "must be another file than IN and OUT");
   }
 }

@@ -54,7 +54,7 @@ set(printing_headers "(iostream|cstdio|stdio\\.h|print)")
 # Dependencies point one way: tools -> plugin -> core.
 forbid(WHERE "^core/" LINE "${include}(plugin|tools|tests)/" BECAUSE "core stands below plugin and tools")
 forbid(WHERE "^plugin/" LINE "${include}(tools|tests)/" BECAUSE "plugin stands below tools")
-forbid(WHERE "^tools/" LINE "${include}(core|plugin|tests)/" EXCEPT "${include}plugin/(gltf_radiosity|verify|view|whole_file|result)\\.h"
+forbid(WHERE "^tools/" LINE "${include}(core|plugin|tests)/" EXCEPT "${include}plugin/(gltf_radiosity|relight|verify|view|whole_file|result)\\.h"
        BECAUSE "tools use the public API only")
 forbid(WHERE "^tests/core/" LINE "${include}(plugin|tools)/" BECAUSE "the tests of core need nothing above it")
 
@@ -76,8 +76,8 @@ forbid(WHERE "^(core|plugin)/" LINE "(std::(cout|cerr|clog)|(^|[^_a-z])(f?printf
        BECAUSE "only tools print and exit")
 
 # The public headers: the standard library and each other, so that they can be installed as they are.
-set(public_headers "^plugin/(gltf_radiosity|verify|view|whole_file|result)\\.h$")
-forbid(WHERE "${public_headers}" LINE "^# *include" EXCEPT "${include}([a-z_]+>|(gltf_radiosity|verify|view|result)\\.h\")"
+set(public_headers "^plugin/(gltf_radiosity|relight|verify|view|whole_file|result)\\.h$")
+forbid(WHERE "${public_headers}" LINE "^# *include" EXCEPT "${include}([a-z_]+>|(gltf_radiosity|relight|verify|view|result)\\.h\")"
        BECAUSE "public headers include the standard library and each other")
 
 # One way to write an include. One pi between luminance and radiosity; angles are measured with another, at these doors.

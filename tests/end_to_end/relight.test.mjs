@@ -42,7 +42,8 @@ function emit(json, name, luminance) {
 
 const all_colors = (file) => {
   const gltf = read_gltf(file)
-  return primitives_of_scene(gltf).filter(({ attributes }) => attributes.COLOR_0 !== undefined).flatMap((one) => colors_of(gltf, one))
+  const primitives = primitives_of_scene(gltf).map(([, primitive]) => primitive)
+  return primitives.filter(({ attributes }) => attributes.COLOR_0 !== undefined).flatMap((one) => colors_of(gltf, one))
 }
 
 // The largest and the root mean square difference of the colours, relative to their mean.
@@ -125,7 +126,7 @@ test('walls of another colour reflect another light, where they had none in a ba
   assert.equal(painted.length, 2)
   const [one, other] = painted
   relight(box.rad, target('relit.glb'), '--reflectance', `${one}=0,0.2,0.8`, '--reflectance', `${other}=0.9,0.9,0.3`, '--emissive', `${emitter(box.scene)}=2`)
-  const scene = edited(box.scene, 'painted.glb', (json) => {
+  const scene = edited(box.scene, 'repainted.glb', (json) => {
     material(json, one).pbrMetallicRoughness.baseColorFactor = [0, 0.2, 0.8, 1]
     material(json, other).pbrMetallicRoughness.baseColorFactor = [0.9, 0.9, 0.3, 1]
     const lamp = material(json, emitter(box.scene))

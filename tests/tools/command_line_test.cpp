@@ -262,6 +262,13 @@ TEST(CommandLine, WantsTwoFilesAndNoMore) {
   EXPECT_NE(parse_mistake({"", "b"}), "accepted");
 }
 
+TEST(CommandLine, SavesTheTransportOfOneBakeBesideItsOtherFiles) {
+  EXPECT_EQ(parse_bake({"--save-transport", "room.rad"}).options.save_transport, "room.rad");
+  EXPECT_NE(parse_mistake({"in", "out", "--save-transport", "./out"}).find("--save-transport"), std::string::npos);
+  EXPECT_NE(parse_mistake({"--batch", "in", "out", "--save-transport", "a.rad"}).find("excludes --batch"),
+            std::string::npos);
+}
+
 TEST(CommandLine, TakesOptionsFromAFile) {
   const ConfigFile config(
       "patch-size = 0.5\nsky = [1, 2.5, 3]\nsubdivide = [\"A=1\", \"B=2\"]\nno-default-sky = true\nhemicube = 8\n"
