@@ -106,9 +106,10 @@ void renew_notes(LoadedTransport& transport, const ChangedLight& changed, const 
     const TransportPrimitive& primitive = description.primitives[p];
     if (!is_changed(description.materials[primitive.material], primitive.material, changed)) continue;
     Json& json = transport.document.json["meshes"][primitive.mesh]["primitives"][primitive.primitive];
-    Json& note = our_extras(json);
-    note.erase("reflectance");
-    note.erase("emits");
+    if (json.contains("extras") && json["extras"].is_object() && json["extras"].contains("radiosity")) {
+      json["extras"]["radiosity"].erase("reflectance");
+      json["extras"]["radiosity"].erase("emits");
+    }
     note_reflectance(colors[p], json);
   }
 }
