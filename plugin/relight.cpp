@@ -1,8 +1,10 @@
 #include "plugin/relight.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <glm/common.hpp>
 #include <nlohmann/json.hpp>
+#include <system_error>
 #include <utility>
 
 #include "core/parallel.h"
@@ -193,7 +195,11 @@ Result<RelightReport> relight_here(const std::string& transport_file, const std:
 Result<RelightReport> relight_file(const std::string& transport, const std::string& output,
                                    const RelightOptions& options, const Callbacks& callbacks) {
   return behind_firewall([&]() -> Result<RelightReport> {
-    if (const auto checked = check_output(transport, output); !checked) return checked.error();
+    if (const auto checked = check_output(output); !checked) return checked.error();
+    std::error_code ignored;
+    if (std::filesystem::equivalent(transport, output, ignored)) {
+      return Error{ErrorCode::kBadOption, output, "the output is the transport itself"};
+    }
     Phases phases(callbacks);
     Result<RelightReport> report = radiosity::on_threads(
         options.threads, [&] { return relight_here(transport, output, options, phases.progress()); });
