@@ -102,9 +102,9 @@ BakeReport describe(const RefinedMesh& mesh, const Patches& patches, const Solut
 Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& progress) {
   // The display mesh, and the patches that light is exchanged between.
   Bake result;
-  DisplayMesh display = make_display_mesh(
-      scene, {options.refine, options.subdivide, options.adapt.max_vertices, options.adapt.min_edge}, progress);
   const RayScene rays(scene);
+  DisplayMesh display = make_display_mesh(
+      rays, {options.refine, options.subdivide, options.adapt.max_vertices, options.adapt.min_edge}, progress);
   const Patches patches = make_patches(rays, {patch_limit(options, display.mesh()), 2}, progress);
 
   // Visibility. A fit averages over many samples, so their hemicubes are half as wide.

@@ -73,6 +73,31 @@ std::uint32_t CutMesh::add_cut(const Cut& cut, std::uint32_t position_class) {
   return static_cast<std::uint32_t>(mesh.positions.size()) - 1;
 }
 
+std::uint32_t CutMesh::class_between(const glm::uvec2& end_classes, float at) {
+  const glm::vec3& a = welder.positions()[end_classes.x];
+  const glm::vec3& b = welder.positions()[end_classes.y];
+  return welder.class_of((1.0F - at) * a + at * b);
+}
+
+std::uint32_t CutMesh::add_between(const glm::uvec2& ends, const glm::uvec2& end_classes, float at,
+                                   std::uint32_t position_class) {
+  const bool starts_at_first = mesh.positions[ends.x] == welder.positions()[end_classes.x];
+  const Cut cut{ends, starts_at_first ? at : 1.0F - at};
+  return add_cut(ends.x < ends.y ? cut : Cut{{ends.y, ends.x}, 1.0F - cut.at}, position_class);
+}
+
+void CutMesh::set_side(std::uint32_t vertex, std::uint32_t side) {
+  mesh.side_of_seam.resize(mesh.positions.size(), 0);
+  mesh.side_of_seam[vertex] = side;
+}
+
+bool CutMesh::split_seam(const glm::uvec2& end_classes, std::uint32_t middle_class) {
+  if (seams.erase(pair_key(end_classes)) == 0) return false;
+  seams.insert(pair_key({end_classes.x, middle_class}));
+  seams.insert(pair_key({end_classes.y, middle_class}));
+  return true;
+}
+
 std::array<std::uint32_t, 2> CutMesh::halve(std::uint32_t edge, const std::array<std::uint32_t, 2>& midpoint_of_side) {
   const glm::uvec2 ends = bridge.end_classes(edge);
   const glm::vec3 middle = midpoint(welder.positions()[ends.x], welder.positions()[ends.y]);

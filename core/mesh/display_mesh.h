@@ -11,6 +11,7 @@
 #include "core/mesh/subdivide_uniform.h"
 #include "core/progress.h"
 #include "core/scene.h"
+#include "core/visibility/ray_scene.h"
 
 namespace radiosity {
 
@@ -26,17 +27,20 @@ struct DisplayMeshOptions {
 
 /// Finished, or with what it takes to cut it further.
 struct DisplayMesh {
-  RefinedMesh uncut;                   ///< unless adaptive
-  std::unique_ptr<CutMesh> cut;        ///< if adaptive
-  std::unique_ptr<Bisector> bisector;  ///< likewise: cuts `cut`
-  bool reached_limit = false;          ///< `max_elements` ended the subdivision
+  RefinedMesh uncut;                        ///< unless adaptive
+  std::unique_ptr<CutMesh> cut;             ///< if adaptive
+  std::unique_ptr<EdgeCopies> edges;        ///< likewise, of `cut`
+  std::unique_ptr<ContactCutter> contacts;  ///< likewise: cuts it along contacts
+  std::unique_ptr<Bisector> bisector;       ///< likewise: cuts it
+  bool reached_limit = false;               ///< `max_elements` ended the subdivision
 
   const RefinedMesh& mesh() const { return cut ? cut->mesh : uncut; }
 };
 
-/// The mesh that refinement starts from, or the whole. T-vertices of the scene are gone unless it stays unrefined.
+/// The mesh that refinement starts from, or the whole. Unless it stays unrefined, T-vertices of the scene are gone and
+/// it is cut along contacts.
 /// Deterministic. Throws `Cancelled`.
-DisplayMesh make_display_mesh(const Scene& scene, const DisplayMeshOptions& options, const Progress& progress);
+DisplayMesh make_display_mesh(const RayScene& rays, const DisplayMeshOptions& options, const Progress& progress);
 
 /// The mesh, its elements grouped by triangle.
 RefinedMesh finish(DisplayMesh display, const Scene& scene);

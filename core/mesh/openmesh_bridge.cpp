@@ -189,6 +189,14 @@ glm::uvec2 OpenMeshBridge::vertices_at(std::uint32_t edge, unsigned int side) co
   return {net.mesh.property(net.corner, before).vertex, net.mesh.property(net.corner, halfedge).vertex};
 }
 
+void OpenMeshBridge::rename(std::uint32_t element, std::uint32_t old_vertex, std::uint32_t vertex) {
+  Net& net = *net_;
+  for (const HalfedgeHandle halfedge : net.mesh.fh_range(FaceHandle(static_cast<int>(element)))) {
+    Net::Corner& corner = net.mesh.property(net.corner, halfedge);
+    if (corner.vertex == old_vertex) corner.vertex = vertex;
+  }
+}
+
 void OpenMeshBridge::begin_round(std::size_t edges, std::size_t sides) {
   Mesh& mesh = net_->mesh;
   mesh.reserve(mesh.n_vertices() + edges, mesh.n_edges() + edges + sides, mesh.n_faces() + sides);

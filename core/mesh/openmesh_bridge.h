@@ -51,6 +51,9 @@ class OpenMeshBridge {
   /// REQUIRES: there is one.
   glm::uvec2 vertices_at(std::uint32_t edge, unsigned int side) const;
 
+  /// Lets an element name `vertex` where it named `old_vertex` so far.
+  void rename(std::uint32_t element, std::uint32_t old_vertex, std::uint32_t vertex);
+
   /// Opens a round in which `edges` edges, `sides` triangles at them counted, will be halved: those that exist now.
   void begin_round(std::size_t edges, std::size_t sides);
   /// Cuts an edge in two: at `position`, which is that of class `position_class`, `at` (0,1) of the way from the first

@@ -1,34 +1,16 @@
 #include "core/mesh/subdivide_adaptive.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <numeric>
-#include <set>
 #include <utility>
 
 #include "core/mesh/subdivide_uniform.h"
 
 namespace radiosity {
 
-Bisector::Bisector(CutMesh& cut, const BisectLimits& limits) : cut_(cut), limits_(limits) {
-  first_edge_between_.reserve(cut.bridge.edge_count());
-  for (std::uint32_t edge = 0; edge < cut.bridge.edge_count(); ++edge) remember(edge);
-}
-
-void Bisector::remember(std::uint32_t edge) {
-  next_copy_.resize(std::max<std::size_t>(next_copy_.size(), edge + std::size_t{1}), kNothing);
-  const auto [first, is_new] = first_edge_between_.try_emplace(pair_key(cut_.bridge.end_classes(edge)), edge);
-  next_copy_[edge] = is_new ? kNothing : std::exchange(first->second, edge);
-}
-
-std::vector<std::uint32_t> Bisector::copies_of(std::uint32_t edge) const {
-  std::vector<std::uint32_t> copies;
-  std::uint32_t copy = first_edge_between_.at(pair_key(cut_.bridge.end_classes(edge)));
-  for (; copy != kNothing; copy = next_copy_[copy]) copies.push_back(copy);
-  return copies;
-}
+Bisector::Bisector(CutMesh& cut, EdgeCopies& edges, const BisectLimits& limits, ContactCutter* contacts)
+    : cut_(cut), edges_(edges), limits_(limits), contacts_(contacts) {}
 
 /// A total order of all edges that are not copies of each other.
 bool Bisector::is_longer(std::uint32_t edge, std::uint32_t than) const {
@@ -56,7 +38,7 @@ bool Bisector::can_be_bisected(std::uint32_t element) const {
 
 /// A longer edge of an element at `edge` or a copy of it; kNothing if there is none.
 std::uint32_t Bisector::edge_to_halve_before(std::uint32_t edge) const {
-  for (const std::uint32_t copy : copies_of(edge)) {
+  for (const std::uint32_t copy : edges_.copies_of(edge)) {
     for (unsigned int side = 0; side < 2; ++side) {
       const std::uint32_t element = cut_.bridge.element_at(copy, side);
       if (element == kNothing) continue;
@@ -67,48 +49,11 @@ std::uint32_t Bisector::edge_to_halve_before(std::uint32_t edge) const {
   return kNothing;
 }
 
-bool Bisector::fits(std::span<const std::uint32_t> copies) const {
-  std::set<std::uint64_t> new_vertices;
-  std::size_t new_elements = 0;
-  for (const std::uint32_t copy : copies) {
-    for (unsigned int side = 0; side < 2; ++side) {
-      if (cut_.bridge.triangle_at(copy, side) == kNothing) continue;
-      new_vertices.insert(pair_key(cut_.bridge.vertices_at(copy, side)));
-      ++new_elements;
-    }
-  }
-  return cut_.mesh.positions.size() + new_vertices.size() <= limits_.max_vertices &&
-         cut_.bridge.face_count() + new_elements <= limits_.max_elements;
-}
-
-void Bisector::halve_all(std::span<const std::uint32_t> copies) {
-  first_edge_between_.erase(pair_key(cut_.bridge.end_classes(copies.front())));
-  std::map<std::uint64_t, std::uint32_t> midpoint_of_pair;
-  for (const std::uint32_t copy : copies) {
-    // One midpoint for each pair of vertices that ends this edge or a copy of it.
-    std::array<std::uint32_t, 2> midpoint_of_side{kNothing, kNothing};
-    std::array<std::uint32_t, 2> element_of_side{kNothing, kNothing};
-    for (unsigned int side = 0; side < 2; ++side) {
-      element_of_side[side] = cut_.bridge.element_at(copy, side);
-      if (element_of_side[side] == kNothing) continue;
-      const glm::uvec2 ends = cut_.bridge.vertices_at(copy, side);
-      const auto [found, is_new] = midpoint_of_pair.try_emplace(pair_key(ends), kNothing);
-      if (is_new) found->second = cut_.add_midpoint(ends);
-      midpoint_of_side[side] = found->second;
-    }
-
-    const std::uint32_t edge_count = cut_.bridge.edge_count();
-    const std::array<std::uint32_t, 2> added = cut_.halve(copy, midpoint_of_side);
-
-    // What came of it.
-    remember(copy);
-    for (std::uint32_t edge = edge_count; edge < cut_.bridge.edge_count(); ++edge) remember(edge);
-    origin_.resize(cut_.bridge.face_count());
-    for (unsigned int side = 0; side < 2; ++side) {
-      if (added[side] == kNothing) continue;
-      origin_[added[side]] = origin_[element_of_side[side]];
-      is_cut_[origin_[added[side]]] = 1;
-    }
+void Bisector::note(std::span<const EdgeCopies::Part> parts) {
+  origin_.resize(cut_.bridge.face_count());
+  for (const EdgeCopies::Part& part : parts) {
+    origin_[part.element] = origin_[part.of_element];
+    is_cut_[origin_[part.element]] = 1;
   }
 }
 
@@ -120,36 +65,49 @@ void Bisector::bisect_at(std::uint32_t edge) {
       waiting.push_back(before);
       continue;
     }
-    const std::vector<std::uint32_t> copies = copies_of(waiting.back());
-    reached_limit_ = reached_limit_ || !fits(copies);
+    const std::vector<std::uint32_t> copies = edges_.copies_of(waiting.back());
+    reached_limit_ = reached_limit_ || !edges_.fits(copies, limits_.mesh);
     if (reached_limit_) return;
-    halve_all(copies);
+    note(edges_.halve(copies));
     waiting.pop_back();
   }
 }
 
 std::vector<std::uint32_t> Bisector::bisect(std::span<const std::uint32_t> elements) {
+  begin_round();
+  for (const std::uint32_t element : elements) {
+    if (reached_limit_) break;
+    if (is_cut_[element] != 0 || !can_be_bisected(element)) continue;
+    if (contacts_ != nullptr && contacts_->is_parted(element)) note(contacts_->cut(element, limits_.mesh));
+    if (is_cut_[element] == 0) bisect_at(longest_edge_of(element));
+  }
+  cut_.write_elements();
+  if (contacts_ != nullptr) contacts_->split_sides(limits_.mesh);
+  return std::move(origin_);
+}
+
+void Bisector::begin_round() {
   origin_.resize(cut_.bridge.face_count());
   std::iota(origin_.begin(), origin_.end(), 0U);
   is_cut_.assign(origin_.size(), 0);
   cut_.bridge.begin_round(0, 0);
-  for (const std::uint32_t element : elements) {
-    if (reached_limit_) break;
-    if (is_cut_[element] == 0 && can_be_bisected(element)) bisect_at(longest_edge_of(element));
-  }
-  cut_.write_elements();
-  return std::move(origin_);
 }
 
 void Bisector::bisect_longer_than(double length) {
-  std::vector<std::uint32_t> longer;
-  do {
-    longer.clear();
-    for (std::uint32_t element = 0; element < cut_.bridge.face_count(); ++element) {
-      if (longest_edge(element) > length && can_be_bisected(element)) longer.push_back(element);
+  const auto is_longer = [&](std::uint32_t element) {
+    return longest_edge(element) > length && can_be_bisected(element);
+  };
+  for (bool done = false; !done && !reached_limit_;) {
+    done = true;
+    begin_round();
+    const auto count = static_cast<std::uint32_t>(origin_.size());
+    for (std::uint32_t element = 0; element < count && !reached_limit_; ++element) {
+      if (is_cut_[element] != 0 || !is_longer(element)) continue;
+      bisect_at(longest_edge_of(element));
+      done = false;
     }
-    bisect(longer);
-  } while (!longer.empty() && !reached_limit_);
+  }
+  cut_.write_elements();
 }
 
 }  // namespace radiosity

@@ -12,21 +12,19 @@
 // Rivara. New Longest-Edge Algorithms for the Refinement and/or Improvement of Unstructured Triangulations. 1997
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
+#include "core/mesh/cut_contacts.h"
 #include "core/mesh/cut_mesh.h"
+#include "core/mesh/edge_copies.h"
 #include "core/scene.h"
 
 namespace radiosity {
 
 struct BisectLimits {
-  std::size_t max_vertices = std::numeric_limits<std::size_t>::max();
-  std::size_t max_elements = 20'000'000;
+  MeshLimits mesh;
   float min_edge = 0.0F;  ///< elements whose longest edge is not longer than this are not bisected, metres
   /// Triangles with a level of their own, [triangle_count] or empty: their elements are not bisected, as in
   /// SubdivideOptions.
@@ -36,18 +34,19 @@ struct BisectLimits {
 /// Keeps track of the copies of edges, so that rounds cost what they cut. Not thread-safe; deterministic.
 class Bisector {
  public:
-  /// `cut` must outlive it, and may only be cut by it from here on.
-  Bisector(CutMesh& cut, const BisectLimits& limits);
+  /// `edges` are those of `cut`, and `contacts`, if any, cuts both; all must outlive it.
+  Bisector(CutMesh& cut, EdgeCopies& edges, const BisectLimits& limits, ContactCutter* contacts = nullptr);
 
   /// Length of an element's longest edge, metres.
   double longest_edge(std::uint32_t element) const;
   /// Whether an element is larger than the floor and of a triangle without a level of its own.
   bool can_be_bisected(std::uint32_t element) const;
 
-  /// Bisects those of `elements` that can be, in this order, each once at least; stops before what exceeds a limit.
+  /// Bisects those of `elements` that can be, in this order, each once at least, or cuts them along the contacts that
+  /// cross them; stops before what exceeds a limit.
   /// Returns which of the elements before each element after was part of, [element_count].
   std::vector<std::uint32_t> bisect(std::span<const std::uint32_t> elements);
-  /// Bisects until no element has a longer edge, or a limit is reached.
+  /// Bisects until no element has a longer edge, or a limit is reached; not along contacts.
   void bisect_longer_than(double length);
 
   /// Whether something was left uncut because of `max_vertices` or `max_elements`.
@@ -56,20 +55,18 @@ class Bisector {
  private:
   std::uint32_t longest_edge_of(std::uint32_t element) const;
   bool is_longer(std::uint32_t edge, std::uint32_t than) const;
-  std::vector<std::uint32_t> copies_of(std::uint32_t edge) const;
   std::uint32_t edge_to_halve_before(std::uint32_t edge) const;
-  void remember(std::uint32_t edge);
-  bool fits(std::span<const std::uint32_t> copies) const;
-  void halve_all(std::span<const std::uint32_t> copies);
+  void begin_round();
+  void note(std::span<const EdgeCopies::Part> parts);
   void bisect_at(std::uint32_t edge);
 
   CutMesh& cut_;
+  EdgeCopies& edges_;
   BisectLimits limits_;
+  ContactCutter* contacts_;
   bool reached_limit_ = false;
-  std::unordered_map<std::uint64_t, std::uint32_t> first_edge_between_;  ///< two position classes
-  std::vector<std::uint32_t> next_copy_;                                 ///< [edge_count], kNothing ends a list
-  std::vector<std::uint32_t> origin_;                                    ///< this round, [element_count]
-  std::vector<std::uint8_t> is_cut_;                                     ///< this round, [element_count] when it began
+  std::vector<std::uint32_t> origin_;  ///< this round, [element_count]
+  std::vector<std::uint8_t> is_cut_;   ///< this round, [element_count] when it began
 };
 
 }  // namespace radiosity

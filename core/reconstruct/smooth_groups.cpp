@@ -32,14 +32,16 @@ SmoothGroups find_smooth_groups(const RefinedMesh& mesh) {
   const Weld welded = weld(mesh.positions);
   const std::vector<glm::vec3> normals = vertex_normals(mesh);
 
-  // Within a weld class a vertex joins the first group whose founder's normal agrees; groups of a class form a chain.
+  // Within a weld class a vertex joins the first group whose founder agrees; groups of a class form a chain.
+  const auto agree = [&](std::uint32_t founder, std::uint32_t v) {
+    return side_of(mesh, founder) == side_of(mesh, v) && glm::dot(normals[founder], normals[v]) >= kSmoothCos;
+  };
   SmoothGroups groups;
   groups.group_of_vertex.resize(mesh.positions.size());
   std::vector<std::uint32_t> first_of_class(welded.class_count, kNothing), next_of_group, founder;
   for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
     std::uint32_t* link = &first_of_class[welded.class_of_vertex[v]];
-    while (*link != kNothing && glm::dot(normals[founder[*link]], normals[v]) < kSmoothCos)
-      link = &next_of_group[*link];
+    while (*link != kNothing && !agree(founder[*link], v)) link = &next_of_group[*link];
     if (*link == kNothing) {
       *link = groups.group_count;
       groups.group_of_vertex[v] = groups.group_count++;

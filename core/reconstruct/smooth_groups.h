@@ -9,7 +9,7 @@
 namespace radiosity {
 
 /// Vertices at one position whose shading normals agree take one value: a texture seam or a change of material shows no
-/// step, a crease keeps two sides apart.
+/// step, a crease keeps two sides apart, and so does a line where light jumps (RefinedMesh::side_of_seam).
 struct SmoothGroups {
   std::vector<std::uint32_t> group_of_vertex;  ///< [vertex_count], numbered by first appearance
   std::uint32_t group_count = 0;

@@ -22,20 +22,21 @@ constexpr float kFar = 16.0F;
 constexpr float kFlat = 0.95F, kPlane = 1.0F - 1e-6F;
 
 /// A polygon cut off at a horizon: a triangle keeps at most four corners.
-struct Polygon {
+struct LampOutline {
   glm::vec3 corner[4];
   int count = 0;
 };
 
-/// The part of a triangle above the plane through the origin. Sutherland and Hodgman, Reentrant Polygon Clipping, 1974.
-Polygon above_horizon(const glm::vec3 corner[3], const SurfacePoint& at) {
+/// The part of a triangle above the plane through the origin. Sutherland and Hodgman, Reentrant Polygon Clipping,
+/// 1974.
+LampOutline above_horizon(const glm::vec3 corner[3], const SurfacePoint& at) {
   glm::vec3 relative[3];
   float height[3];
   for (int k = 0; k < 3; ++k) {
     relative[k] = corner[k] - at.position;
     height[k] = glm::dot(relative[k], at.normal);
   }
-  Polygon polygon;
+  LampOutline polygon;
   for (int k = 0; k < 3; ++k) {
     const int next = (k + 1) % 3;
     if (height[k] > 0.0F) polygon.corner[polygon.count++] = relative[k];
@@ -73,7 +74,7 @@ bool in_plane(const EmissiveTile& lamp, const glm::vec3& point, float tolerance)
 }  // namespace
 
 float triangle_irradiance(const glm::vec3 corner[3], const SurfacePoint& at) {
-  const Polygon polygon = above_horizon(corner, at);
+  const LampOutline polygon = above_horizon(corner, at);
   if (polygon.count < 3) return 0.0F;
 
   // Lambert: half the sum, over the edges, of the angle each spans times the cosine to its plane's normal.

@@ -69,7 +69,8 @@ TEST(Stitch, LeavesGapsAndSoundScenesAlone) {
 TEST(Stitch, LetsRefinementConformAcrossWhatWasACrack) {
   CutMesh cut(one_over_three(5e-6F));
   stitch(cut, kAny);
-  Bisector bisector(cut, {});
+  EdgeCopies edges(cut);
+  Bisector bisector(cut, edges, {});
   for (int round = 0; round < 6; ++round) {
     std::vector<std::uint32_t> upper;
     for (std::uint32_t e = 0; e < cut.mesh.elements.size(); ++e) {

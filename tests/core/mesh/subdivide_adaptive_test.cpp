@@ -64,7 +64,8 @@ TEST(SubdivideAdaptive, ConformsWhateverTheScene) {
   for (const auto& [name, scene] : sound_and_faulty()) {
     SCOPED_TRACE(name);
     CutMesh cut(scene);
-    Bisector bisector(cut, {});
+    EdgeCopies edges(cut);
+    Bisector bisector(cut, edges, {});
     cut_towards_a_corner(cut, bisector, 10);
     group_by_triangle(cut.mesh, scene.triangles.size());
     EXPECT_GT(cut.mesh.elements.size(), scene.triangles.size());
@@ -76,7 +77,8 @@ TEST(SubdivideAdaptive, ConformsWhateverTheScene) {
 TEST(SubdivideAdaptive, CutsWhereItIsAsked) {
   const Scene scene = test::floor_only();
   CutMesh cut(scene);
-  Bisector bisector(cut, {});
+  EdgeCopies edges(cut);
+  Bisector bisector(cut, edges, {});
   cut_towards_a_corner(cut, bisector, 12);
   const glm::vec3 corner = scene.positions[1];
   const auto smallest_near = [&](const glm::vec3& place) {
@@ -93,7 +95,8 @@ TEST(SubdivideAdaptive, KeepsShapes) {
   for (const auto& [scene, least] :
        {std::pair(test::floor_only(), 0.7F), {scene_of({{0, 0, 0}, {3, 0, 0}, {1, 2, 0}}, {{0, 1, 2}}), 0.3F}}) {
     CutMesh cut(scene);
-    Bisector bisector(cut, {});
+    EdgeCopies edges(cut);
+    Bisector bisector(cut, edges, {});
     cut_towards_a_corner(cut, bisector, 14);
     for (const glm::uvec3& element : cut.mesh.elements) {
       for (int k = 0; k < 3; ++k) {
@@ -108,7 +111,8 @@ TEST(SubdivideAdaptive, KeepsShapes) {
 TEST(SubdivideAdaptive, SaysWhereEveryElementComesFrom) {
   const Scene scene = test::box_room({1, 2, 3}, Surface{});
   CutMesh cut(scene);
-  Bisector bisector(cut, {});
+  EdgeCopies edges(cut);
+  Bisector bisector(cut, edges, {});
   cut_towards_a_corner(cut, bisector, 4);
   const RefinedMesh before = cut.mesh;
   const std::vector<std::uint32_t> origin = bisector.bisect(near(cut.mesh, {0, 0, 0}, 1.5F));
@@ -126,7 +130,8 @@ TEST(SubdivideAdaptive, NeverExceedsTheVerticesAllowed) {
   const Scene scene = test::box_room({1, 1, 1}, Surface{});
   for (const std::size_t most : {0U, 24U, 25U, 100U, 333U}) {
     CutMesh cut(scene);
-    Bisector bisector(cut, {.max_vertices = most, .level_of_triangle = {}});
+    EdgeCopies edges(cut);
+    Bisector bisector(cut, edges, {.mesh = {.max_vertices = most}, .level_of_triangle = {}});
     for (int round = 0; round < 12; ++round) bisector.bisect(near(cut.mesh, {0, 0, 0}, 9.0F));
     EXPECT_LE(cut.mesh.positions.size(), std::max<std::size_t>(most, 24U));
     EXPECT_GE(cut.mesh.positions.size() + 3, most) << "a cut takes four vertices at most, two on either side of a seam";
@@ -137,7 +142,8 @@ TEST(SubdivideAdaptive, NeverExceedsTheVerticesAllowed) {
 
 TEST(SubdivideAdaptive, NeverExceedsTheElementsAllowed) {
   CutMesh cut(test::box_room({1, 1, 1}, Surface{}));
-  Bisector bisector(cut, {.max_elements = 100, .level_of_triangle = {}});
+  EdgeCopies edges(cut);
+  Bisector bisector(cut, edges, {.mesh = {.max_elements = 100}, .level_of_triangle = {}});
   cut_towards_a_corner(cut, bisector, 12);
   EXPECT_LE(cut.mesh.elements.size(), 100U);
   EXPECT_GT(cut.mesh.elements.size(), 90U);
@@ -149,7 +155,8 @@ TEST(SubdivideAdaptive, LeavesShortEdgesAndTrianglesWithALevelAlone) {
       scene_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}}, {{0, 1, 2}, {3, 4, 5}});
   const std::vector<std::int8_t> levels = {0, kLevelFromPatchSize};
   CutMesh cut(scene);
-  Bisector bisector(cut, {.min_edge = 0.25F, .level_of_triangle = levels});
+  EdgeCopies edges(cut);
+  Bisector bisector(cut, edges, {.mesh = {}, .min_edge = 0.25F, .level_of_triangle = levels});
   for (int round = 0; round < 20; ++round) bisector.bisect(near(cut.mesh, {0, 0, 0}, 100.0F));
   EXPECT_EQ(std::ranges::count(cut.mesh.triangle_of_element, 0U), 1);
   EXPECT_EQ(std::ranges::count(cut.mesh.triangle_of_element, 1U), 32) << "edges of 0.25 and 0.18";
@@ -159,7 +166,8 @@ TEST(SubdivideAdaptive, LeavesShortEdgesAndTrianglesWithALevelAlone) {
 TEST(SubdivideAdaptive, StartsWithNoEdgeLongerThanAsked) {
   const Scene scene = test::cornell_box();
   CutMesh cut(scene);
-  Bisector bisector(cut, {});
+  EdgeCopies edges(cut);
+  Bisector bisector(cut, edges, {});
   bisector.bisect_longer_than(0.2);
   for (std::uint32_t e = 0; e < cut.mesh.elements.size(); ++e) EXPECT_LE(bisector.longest_edge(e), 0.2);
   EXPECT_EQ(t_vertex_count(cut.mesh), 0U);
@@ -168,7 +176,8 @@ TEST(SubdivideAdaptive, StartsWithNoEdgeLongerThanAsked) {
 TEST(SubdivideAdaptive, EndsAtEdgesTooShortToHaveAMiddle) {
   const float next = std::nextafter(1.0F, 2.0F);
   CutMesh cut(scene_of({{1, 1, 1}, {next, 1, 1}, {1, next, 1}}, {{0, 1, 2}}));
-  Bisector bisector(cut, {});
+  EdgeCopies edges(cut);
+  Bisector bisector(cut, edges, {});
   bisector.bisect_longer_than(0.0);
   EXPECT_LE(cut.mesh.elements.size(), 2U);
 }
@@ -176,7 +185,8 @@ TEST(SubdivideAdaptive, EndsAtEdgesTooShortToHaveAMiddle) {
 TEST(SubdivideAdaptive, GivesTheSameBytesTwice) {
   const auto refined = [] {
     CutMesh cut(test::many_boxes(30, 7));
-    Bisector bisector(cut, {});
+    EdgeCopies edges(cut);
+    Bisector bisector(cut, edges, {});
     cut_towards_a_corner(cut, bisector, 6);
     return cut.mesh;
   };

@@ -25,7 +25,8 @@ glm::vec3 place_of(const RefinedMesh& mesh, const Samples& samples, std::uint32_
 struct Cut {
   Gathering gathering{test::occluder()};
   CutMesh cut{gathering.prepared.scene};
-  Bisector bisector{cut, {}};
+  EdgeCopies edges{cut};
+  Bisector bisector{cut, edges, {}};
   Samples before = gather_samples(cut.mesh, gathering.gatherer, {.per_element = 50}, {});
   RefinedMesh mesh_before = cut.mesh;
   std::vector<std::uint32_t> origin = bisector.bisect(std::vector<std::uint32_t>{0, 1});

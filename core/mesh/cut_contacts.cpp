@@ -1,0 +1,277 @@
+#include "core/mesh/cut_contacts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace radiosity {
+namespace {
+
+/// A vertex lies on a contact if it is no farther away than this share of the element's shortest edge.
+constexpr double kOnLine = 0.005;
+
+/// An element is cut through if the contact covers this share of its way through it; an edge is a seam from half.
+constexpr double kCutThrough = 0.3, kSeam = 0.5;
+
+/// Where the mesh is refined a cut takes the place of a bisection only from here on.
+constexpr double kParted = 0.6;
+
+/// Light jumps where a surface goes on, not where it turns: there a crease keeps it apart.
+constexpr double kGoesOnCos = 0.9659258;  // 15 degrees
+
+}  // namespace
+
+/// A contact as a line in its triangle's plane.
+struct ContactCutter::Line {
+  Line(const Contact& contact, const glm::dvec3& normal)
+      : from(contact.from),
+        length(glm::distance(contact.from, contact.to)),
+        along((contact.to - contact.from) / length),
+        across(glm::cross(normal, along)),
+        light_jumps(contact.shows_both_sides) {}
+
+  double beside(const glm::dvec3& at) const { return glm::dot(at - from, across); }
+  double place(const glm::dvec3& at) const { return glm::dot(at - from, along); }
+  /// -1, 0 or 1: right of it, on it, left of it.
+  int side(const glm::dvec3& at, double tolerance) const {
+    const double distance = beside(at);
+    return std::abs(distance) <= tolerance ? 0 : (distance < 0.0 ? -1 : 1);
+  }
+  /// The share of the stretch between two places that the contact covers.
+  double covered(double first, double last) const {
+    if (last < first) std::swap(first, last);
+    return last > first ? std::max(0.0, std::min(last, length) - std::max(first, 0.0)) / (last - first) : 0.0;
+  }
+
+  glm::dvec3 from;
+  double length;
+  glm::dvec3 along, across;
+  bool light_jumps;
+};
+
+ContactCutter::ContactCutter(CutMesh& cut, EdgeCopies& edges, const Scene& scene, std::span<const Contact> contacts)
+    : cut_(cut), edges_(edges), scene_(scene) {
+  for (const Contact& contact : contacts)
+    lines_on_[contact.triangle].emplace_back(contact, normal_of(contact.triangle));
+}
+
+ContactCutter::~ContactCutter() = default;
+
+glm::dvec3 ContactCutter::normal_of(std::uint32_t triangle) const {
+  return glm::normalize(glm::dvec3(scaled_normal(scene_, triangle)));
+}
+
+glm::dvec3 ContactCutter::place_of(std::uint32_t position_class) const {
+  return cut_.welder.positions()[position_class];
+}
+
+/// How far from a contact a vertex of an element may lie to be on it, metres.
+double ContactCutter::tolerance_of(std::uint32_t element) const {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t edge : cut_.bridge.edges_of(element))
+    shortest = std::min(shortest, cut_.squared_length(cut_.bridge.end_classes(edge)));
+  return std::max(kOnLine * std::sqrt(shortest), double{surface_offset_});
+}
+
+/// An edge of an element that the line of a contact crosses, and where.
+std::optional<ContactCutter::Crossing> ContactCutter::crossing_of(const Line& line, std::uint32_t element,
+                                                                  double tolerance) const {
+  std::optional<Crossing> crossing;
+  double first = std::numeric_limits<double>::infinity(), last = -first;
+  const auto passes = [&](const glm::dvec3& at) {
+    first = std::min(first, line.place(at));
+    last = std::max(last, line.place(at));
+  };
+  for (const std::uint32_t edge : cut_.bridge.edges_of(element)) {
+    const glm::uvec2 classes = cut_.bridge.end_classes(edge);
+    const glm::dvec3 a = place_of(classes.x), b = place_of(classes.y);
+    const int side_a = line.side(a, tolerance), side_b = line.side(b, tolerance);
+    if (side_a == 0) passes(a);
+    if (side_b == 0) passes(b);
+    if (side_a * side_b >= 0) continue;
+    const double at = line.beside(a) / (line.beside(a) - line.beside(b));
+    passes(a + at * (b - a));
+    if (!crossing) crossing = {edge, static_cast<float>(at)};
+  }
+  if (crossing) crossing->covered = line.covered(first, last);
+  return crossing;
+}
+
+bool ContactCutter::is_parted(std::uint32_t element) const {
+  const auto found = lines_on_.find(cut_.bridge.triangle_of(element));
+  if (found == lines_on_.end()) return false;
+  const double tolerance = tolerance_of(element);
+  int lines = 0;
+  for (const Line& line : found->second) {
+    const std::optional<Crossing> crossing = crossing_of(line, element, tolerance);
+    if (!crossing || !(crossing->covered > 0.0)) continue;
+    if (++lines > 1 || crossing->covered < kParted) return false;
+  }
+  return lines == 1;
+}
+
+/// Whether the surface goes on across an edge.
+bool ContactCutter::goes_on(std::uint32_t edge) const {
+  const std::uint32_t one = cut_.bridge.triangle_at(edge, 0), other = cut_.bridge.triangle_at(edge, 1);
+  if (one == kNothing || other == kNothing) return false;
+  return one == other || glm::dot(normal_of(one), normal_of(other)) >= kGoesOnCos;
+}
+
+void ContactCutter::mark_seams(std::uint32_t element, std::span<const Line> lines) {
+  const double tolerance = tolerance_of(element);
+  for (const std::uint32_t edge : cut_.bridge.edges_of(element)) {
+    const glm::uvec2 classes = cut_.bridge.end_classes(edge);
+    const glm::dvec3 a = place_of(classes.x), b = place_of(classes.y);
+    const bool is_seam = std::ranges::any_of(lines, [&](const Line& line) {
+      return line.light_jumps && line.side(a, tolerance) == 0 && line.side(b, tolerance) == 0 &&
+             line.covered(line.place(a), line.place(b)) >= kSeam;
+    });
+    if (is_seam && goes_on(edge)) cut_.seams.insert(pair_key(classes));
+  }
+}
+
+std::vector<EdgeCopies::Part> ContactCutter::cut(std::uint32_t element, const MeshLimits& limits) {
+  std::vector<EdgeCopies::Part> parts;
+  const auto found = lines_on_.find(cut_.bridge.triangle_of(element));
+  if (found == lines_on_.end()) return parts;
+  std::vector<std::uint32_t> waiting{element};
+  std::set<std::uint32_t> pieces{element};
+  while (!waiting.empty()) {
+    // The next contact that crosses a piece.
+    const std::uint32_t piece = waiting.back();
+    const double tolerance = tolerance_of(piece);
+    std::optional<Crossing> crossing;
+    for (const Line& line : found->second) {
+      crossing = crossing_of(line, piece, tolerance);
+      if (crossing && crossing->covered >= kCutThrough) break;
+      crossing.reset();
+    }
+    if (!crossing) {
+      mark_seams(piece, found->second);
+      waiting.pop_back();
+      continue;
+    }
+
+    // The cut.
+    const std::vector<std::uint32_t> copies = edges_.copies_of(crossing->edge);
+    if (!edges_.fits(copies, limits)) return parts;
+    for (const EdgeCopies::Part& part : edges_.cut(copies, crossing->at)) {
+      parts.push_back(part);
+      if (!pieces.contains(part.of_element)) continue;
+      pieces.insert(part.element);
+      waiting.push_back(part.element);
+    }
+  }
+  return parts;
+}
+
+void ContactCutter::cut_all(const MeshLimits& limits) {
+  if (lines_on_.empty()) return;
+  cut_.bridge.begin_round(0, 0);
+  for (std::uint32_t element = 0; element < cut_.bridge.face_count(); ++element) cut(element, limits);
+  cut_.write_elements();
+  split_sides(limits);
+}
+
+namespace {
+
+/// Lets the elements around vertices on seams fall apart into sides.
+class SideSplitter {
+ public:
+  SideSplitter(CutMesh& cut, std::size_t max_vertices) : cut_(cut), max_vertices_(max_vertices) {}
+
+  void run() {
+    for (const std::uint64_t key : cut_.seams) {
+      corners_at_[static_cast<std::uint32_t>(key >> 32U)];
+      corners_at_[static_cast<std::uint32_t>(key)];
+    }
+    for (std::uint32_t element = 0; element < cut_.mesh.elements.size(); ++element) list(element);
+    for (const auto& [position_class, corners] : corners_at_) split(position_class, corners);
+  }
+
+ private:
+  struct Corner {
+    std::uint32_t element = 0, vertex = 0;
+    glm::uvec2 other_classes{0};
+  };
+
+  void list(std::uint32_t element) {
+    const glm::uvec3& vertices = cut_.mesh.elements[element];
+    glm::uvec3 classes;
+    for (int k = 0; k < 3; ++k) classes[k] = cut_.welder.class_of(cut_.mesh.positions[vertices[k]]);
+    for (int k = 0; k < 3; ++k) {
+      const auto found = corners_at_.find(classes[k]);
+      if (found == corners_at_.end()) continue;
+      found->second.push_back({element, vertices[k], {classes[(k + 1) % 3], classes[(k + 2) % 3]}});
+    }
+  }
+
+  /// The side of each corner: corners are on one side if elements at edges that are no seams lead from one to another.
+  std::vector<std::uint32_t> sides_of(std::uint32_t position_class, std::span<const Corner> corners) const {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> corner_at_edge;  // by the class of its other end
+    for (std::uint32_t i = 0; i < corners.size(); ++i) {
+      for (int k = 0; k < 2; ++k) {
+        const std::uint32_t other = corners[i].other_classes[k];
+        if (!cut_.seams.contains(pair_key({position_class, other}))) corner_at_edge.emplace_back(other, i);
+      }
+    }
+    std::ranges::sort(corner_at_edge);
+    std::vector<std::uint32_t> side(corners.size());
+    std::iota(side.begin(), side.end(), 0U);
+    for (std::size_t k = 1; k < corner_at_edge.size(); ++k) {
+      if (corner_at_edge[k].first != corner_at_edge[k - 1].first) continue;
+      const std::uint32_t one = side[corner_at_edge[k - 1].second], other = side[corner_at_edge[k].second];
+      std::ranges::replace(side, std::max(one, other), std::min(one, other));
+    }
+    return side;
+  }
+
+  void split(std::uint32_t position_class, std::span<const Corner> corners) {
+    const std::vector<std::uint32_t> side = sides_of(position_class, corners);
+    if (std::ranges::all_of(side, [](std::uint32_t s) { return s == 0; })) return;
+
+    // The vertex that each corner is to name: its own on the first side that names it, elsewhere a copy.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> vertex_on_side;
+    std::map<std::uint32_t, std::uint32_t> number_of_side;
+    std::set<std::uint32_t> named;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const bool is_new = vertex_on_side.try_emplace({corners[i].vertex, side[i]}, kNothing).second;
+      if (is_new && named.insert(corners[i].vertex).second) {
+        vertex_on_side[{corners[i].vertex, side[i]}] = corners[i].vertex;
+      }
+    }
+    if (cut_.mesh.positions.size() + vertex_on_side.size() - named.size() > max_vertices_) return;
+    for (auto& [of, vertex] : vertex_on_side) {
+      const auto [original, its_side] = of;
+      if (vertex == kNothing) vertex = cut_.add_cut({{original, original}, 0.5F}, position_class);
+      const auto [number, is_first] = number_of_side.try_emplace(its_side, cut_.side_count + 1);
+      if (is_first) ++cut_.side_count;
+      cut_.set_side(vertex, number->second);
+    }
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const std::uint32_t vertex = vertex_on_side.at({corners[i].vertex, side[i]});
+      if (vertex != corners[i].vertex) cut_.bridge.rename(corners[i].element, corners[i].vertex, vertex);
+    }
+  }
+
+  CutMesh& cut_;
+  std::size_t max_vertices_;
+  std::map<std::uint32_t, std::vector<Corner>> corners_at_;  ///< the position classes of vertices on seams
+};
+
+}  // namespace
+
+void ContactCutter::split_sides(const MeshLimits& limits) {
+  if (cut_.seams.empty()) return;
+  SideSplitter(cut_, limits.max_vertices).run();
+  cut_.write_elements();
+}
+
+}  // namespace radiosity

@@ -1,0 +1,140 @@
+#include "core/mesh/cut_contacts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/mesh/subdivide_adaptive.h"
+#include "core/mesh/subdivide_uniform.h"
+#include "core/mesh/t_vertices.h"
+#include "core/reconstruct/smooth_groups.h"
+#include "tests/core/test_scenes.h"
+
+namespace radiosity {
+namespace {
+
+/// The floor of a test scene cut to 0.3 m, and contacts on its triangles that no edge lies on.
+struct CutFloor {
+  explicit CutFloor(std::vector<Contact> contacts_there) : contacts(std::move(contacts_there)) {
+    subdivide_uniform(cut, {.patch_size = 0.3F, .level_of_triangle = {}}, {});
+    cut.write_elements();
+    EdgeCopies edges(cut);
+    ContactCutter(cut, edges, scene, contacts).cut_all({.max_vertices = max_vertices});
+  }
+
+  Scene scene = test::floor_only();
+  CutMesh cut{scene};
+  std::vector<Contact> contacts;
+  std::size_t max_vertices = 100'000;
+};
+
+glm::dvec3 corner(const Scene& scene, std::uint32_t triangle, int k) {
+  return scene.positions[scene.triangles[triangle][k]];
+}
+
+/// A line across a triangle, from the middle of one edge to a third of the next, or the `share` of it in the middle.
+Contact across(const Scene& scene, std::uint32_t triangle, double share = 1.0) {
+  const glm::dvec3 from = glm::mix(corner(scene, triangle, 0), corner(scene, triangle, 1), 0.47);
+  const glm::dvec3 to = glm::mix(corner(scene, triangle, 0), corner(scene, triangle, 2), 0.31);
+  const double rest = 0.5 * (1.0 - share);
+  return {triangle, glm::mix(from, to, rest), glm::mix(to, from, rest), true};
+}
+
+double area(const RefinedMesh& mesh) {
+  double sum = 0.0;
+  for (std::uint32_t e = 0; e < mesh.elements.size(); ++e) sum += double{element_area(mesh, e)};
+  return sum;
+}
+
+/// Whether an element has corners clearly on both sides of a line that it clearly meets.
+bool is_crossed(const CutFloor& floor, std::uint32_t element, const Contact& contact) {
+  const glm::dvec3 along = glm::normalize(contact.to - contact.from);
+  const glm::dvec3 normal = glm::normalize(glm::dvec3(scaled_normal(floor.scene, contact.triangle)));
+  const glm::dvec3 beside = glm::cross(normal, along);
+  double least = 0.0, most = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    const glm::dvec3 at(floor.cut.mesh.positions[floor.cut.mesh.elements[element][k]]);
+    least = std::min(least, glm::dot(at - contact.from, beside));
+    most = std::max(most, glm::dot(at - contact.from, beside));
+  }
+  return floor.cut.mesh.triangle_of_element[element] == contact.triangle && least < -0.01 && most > 0.01;
+}
+
+TEST(CutContacts, RunAlongEdges) {
+  const CutFloor whole({across(test::floor_only(), 0)});
+  for (std::uint32_t e = 0; e < whole.cut.mesh.elements.size(); ++e)
+    EXPECT_FALSE(is_crossed(whole, e, whole.contacts[0]));
+}
+
+TEST(CutContacts, LeaveTheSurfaceWhole) {
+  const CutFloor uncut({}), cut({across(test::floor_only(), 0), across(test::floor_only(), 1, 0.5)});
+  EXPECT_GT(cut.cut.mesh.elements.size(), uncut.cut.mesh.elements.size());
+  EXPECT_NEAR(area(cut.cut.mesh), area(uncut.cut.mesh), 1e-5 * area(uncut.cut.mesh));
+  EXPECT_TRUE(find_t_vertices(cut.cut.mesh.positions, cut.cut.mesh.elements, rounding_tolerance(cut.cut.mesh.positions))
+                  .empty());
+}
+
+TEST(CutContacts, GiveEachSideItsOwnLight) {
+  const CutFloor floor({across(test::floor_only(), 0)});
+  const RefinedMesh& mesh = floor.cut.mesh;
+  const SmoothGroups groups = find_smooth_groups(mesh);
+  std::size_t on_seam = 0;
+  for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+    for (std::uint32_t w = 0; w < v; ++w) {
+      if (mesh.positions[v] != mesh.positions[w]) continue;
+      EXPECT_NE(groups.group_of_vertex[v], groups.group_of_vertex[w]);
+      ++on_seam;
+    }
+  }
+  EXPECT_GT(on_seam, 3U);
+}
+
+TEST(CutContacts, DoNotPartLightWhereOneSideIsBuried) {
+  Contact contact = across(test::floor_only(), 0);
+  contact.shows_both_sides = false;
+  const CutFloor floor({contact});
+  EXPECT_TRUE(floor.cut.seams.empty());
+  EXPECT_TRUE(floor.cut.mesh.side_of_seam.empty());
+}
+
+TEST(CutContacts, StayWithinTheVerticesAllowed) {
+  for (const std::size_t most : {10U, 20U, 40U}) {
+    Scene scene = test::floor_only();
+    CutMesh cut(scene);
+    EdgeCopies edges(cut);
+    const std::vector<Contact> contacts{across(scene, 0), across(scene, 1)};
+    ContactCutter cutter(cut, edges, scene, contacts);
+    Bisector bisector(cut, edges, {.mesh = {.max_vertices = most}, .level_of_triangle = {}}, &cutter);
+    for (int round = 0; round < 20; ++round) {
+      std::vector<std::uint32_t> all(cut.mesh.elements.size());
+      for (std::uint32_t e = 0; e < all.size(); ++e) all[e] = e;
+      bisector.bisect(all);
+    }
+    EXPECT_LE(cut.mesh.positions.size(), most);
+    EXPECT_GE(cut.mesh.positions.size() + 6, most);
+  }
+}
+
+TEST(CutContacts, StayPartedWhenTheMeshIsRefined) {
+  Scene scene = test::floor_only();
+  CutMesh cut(scene);
+  EdgeCopies edges(cut);
+  const std::vector<Contact> contacts{across(scene, 0)};
+  ContactCutter cutter(cut, edges, scene, contacts);
+  Bisector bisector(cut, edges, {}, &cutter);
+  std::size_t seams_before = 0;
+  for (int round = 0; round < 6; ++round) {
+    std::vector<std::uint32_t> all(cut.mesh.elements.size());
+    for (std::uint32_t e = 0; e < all.size(); ++e) all[e] = e;
+    bisector.bisect(all);
+    EXPECT_GE(cut.seams.size(), seams_before);
+    seams_before = cut.seams.size();
+  }
+  EXPECT_GT(seams_before, 3U);
+  EXPECT_TRUE(find_t_vertices(cut.mesh.positions, cut.mesh.elements, rounding_tolerance(cut.mesh.positions)).empty());
+}
+
+}  // namespace
+}  // namespace radiosity
