@@ -93,6 +93,11 @@ std::size_t BufferBuilder::append(std::span<const std::uint8_t> bytes) {
   return offset;
 }
 
+void BufferBuilder::replace(std::size_t offset, std::span<const std::uint8_t> bytes) {
+  assert(offset + bytes.size() <= bytes_.size());
+  std::copy(bytes.begin(), bytes.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(offset));
+}
+
 std::size_t BufferBuilder::reserve_decoded(std::size_t size) {
   const std::size_t offset = aligned(decoded_size_);
   decoded_size_ = offset + size;

@@ -17,6 +17,8 @@ class BufferBuilder {
   /// Appends, aligned to 4 bytes, and returns the offset.
   std::size_t append(std::span<const std::uint8_t> bytes);
   const Bytes& bytes() const { return bytes_; }
+  /// Replaces bytes at an offset. REQUIRES: they were appended.
+  void replace(std::size_t offset, std::span<const std::uint8_t> bytes);
 
   /// Reserves room in another buffer, [document.buffers.size() + 1], aligned to 4 bytes, and returns the offset. It
   /// holds no data: decoders of EXT_meshopt_compression put there what they decode.

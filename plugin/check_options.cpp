@@ -25,6 +25,19 @@ bool is_attribute_name(const std::string& name) {
 
 Error refuse(const char* option, const char* why) { return {ErrorCode::kBadOption, option, why}; }
 
+Result<Done> check_light_groups(const Options& options) {
+  for (const auto& [name, pattern] : options.groups) {
+    if (name.empty() || pattern.empty()) return refuse("--group", "neither the name nor the pattern may be empty");
+  }
+  if (options.light_groups == LightGroupStorage::kNone) {
+    return options.groups.empty() ? Result<Done>(Done{}) : refuse("--group", "needs --light-groups");
+  }
+  if (options.solver != SolverMethod::kGathering) return refuse("--light-groups", "needs --solver gathering");
+  if (!options.save_transport.empty()) return refuse("--light-groups", "excludes --save-transport");
+  if (options.simplify) return refuse("--light-groups", "excludes --simplify, which looks at the whole light only");
+  return Done{};
+}
+
 }  // namespace
 
 Result<Done> check_options(const Options& options) {
@@ -75,6 +88,7 @@ Result<Done> check_options(const Options& options) {
     return refuse("--draco", "must lie between 8 and 24");
   }
   if (options.draco_bits != 0 && options.meshopt) return refuse("--meshopt", "excludes --draco");
+  if (const auto checked = check_light_groups(options); !checked) return checked.error();
   return Done{};
 }
 

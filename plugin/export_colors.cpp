@@ -151,7 +151,8 @@ ColorTerms terms_of_instance(const Source& source, std::uint32_t instance) {
   return terms;
 }
 
-VertexColors colors_of_instance(const Source& source, const radiosity::Bake& bake, std::uint32_t instance) {
+/// `irradiance` is that of all vertices of the refined mesh, lx.
+VertexColors colors_of_instance(const Source& source, std::span<const Rgb> irradiance, std::uint32_t instance) {
   const std::vector<glm::vec4> old = old_colors(source);
   const std::vector<float> areas = vertex_areas(source);
   const Emission emitted = emission(source, instance);
@@ -169,7 +170,7 @@ VertexColors colors_of_instance(const Source& source, const radiosity::Bake& bak
     // Reflected.
     const Rgb rho =
         factor * Rgb(old[v]) * (diffuse.empty() ? Rgb(1.0F) : diffuse[v]) * (blurred.empty() ? Rgb(1.0F) : blurred[v]);
-    Rgb shown = radiosity::reflected_luminance(rho, bake.irradiance[source.refined.vertices[v]]);
+    Rgb shown = radiosity::reflected_luminance(rho, irradiance[source.refined.vertices[v]]);
 
     // Emitted.
     const Rgb luminance = emitted.luminance.empty() ? Rgb(0.0F) : emitted.luminance[v] * dimmer;
@@ -187,6 +188,12 @@ VertexColors colors_of_instance(const Source& source, const radiosity::Bake& bak
 
 /// What is no number is black.
 float in_unit_range(float value) { return value > 0.0F ? std::min(value, 1.0F) : 0.0F; }
+
+ComponentType component_of(ColorType type) {
+  return type == ColorType::kFloat ? ComponentType::kF32
+         : type == ColorType::kU16 ? ComponentType::kU16
+                                   : ComponentType::kU8;
+}
 
 /// Moves the bands of RGBA colours, [places.size() * 4], by up to half a step of 8 bits.
 void dither(std::vector<float>& values, std::span<const std::uint32_t> places) {
@@ -214,7 +221,7 @@ std::vector<VertexColors> vertex_colors(const ImportedScene& scene, const radios
     if (!instance.receives) continue;
     const ShownTexture texture = textures.empty() ? ShownTexture::kBaseColor : textures[instance.material];
     const Source source{scene, bake.mesh, instance, scene.materials[instance.material], refined[i], parts, texture};
-    colors[i] = colors_of_instance(source, bake, i);
+    colors[i] = colors_of_instance(source, bake.irradiance, i);
   }
   return colors;
 }
@@ -237,6 +244,15 @@ Rgb brightest(const VertexColors& colors, std::span<const std::uint32_t> kept, f
   return most;
 }
 
+VertexColors group_colors(const ImportedScene& scene, const radiosity::Bake& bake, const RefinedPrimitive& refined,
+                          std::uint32_t instance, const ColorParts& parts, ShownTexture texture, std::uint32_t group) {
+  const PrimitiveInstance& own = scene.instances[instance];
+  const std::uint32_t surface = scene.scene.surface_of_triangle[own.first_triangle];
+  const ColorParts shown{parts.base_color, parts.emission && scene.scene.surfaces[surface].light_group == group};
+  return colors_of_instance({scene, bake.mesh, own, scene.materials[own.material], refined, shown, texture},
+                            bake.group_irradiance[group], instance);
+}
+
 RawAccessor color_rows(const VertexColors& colors, const Rgb& k, ColorType type) {
   // Expose and clamp.
   std::vector<float> values;
@@ -248,9 +264,7 @@ RawAccessor color_rows(const VertexColors& colors, const Rgb& k, ColorType type)
   if (type == ColorType::kU8) dither(values, colors.places);
 
   // Store.
-  const ComponentType component = type == ColorType::kFloat ? ComponentType::kF32
-                                  : type == ColorType::kU16 ? ComponentType::kU16
-                                                            : ComponentType::kU8;
+  const ComponentType component = component_of(type);
   const bool normalized = type != ColorType::kFloat;
   return {component, 4, normalized, colors.unexposed.size(), encode_floats(values, component, normalized)};
 }
@@ -258,6 +272,23 @@ RawAccessor color_rows(const VertexColors& colors, const Rgb& k, ColorType type)
 std::size_t export_color_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors,
                                   std::span<const std::uint32_t> kept, const Rgb& k, ColorType type) {
   return append_accessor(document, buffer, picked(color_rows(colors, k, type), kept), BufferTarget::kVertices);
+}
+
+std::size_t export_light_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors,
+                                  std::span<const std::uint32_t> kept, const Rgb& k, ColorType type) {
+  const bool normalized = type != ColorType::kFloat;
+  std::vector<float> values;
+  values.reserve(colors.unexposed.size() * 3);
+  for (const glm::vec4& color : colors.unexposed) {
+    for (int band = 0; band < 3; ++band) {
+      const float value = color[band] * k[band];
+      values.push_back(normalized ? in_unit_range(value) : value);
+    }
+  }
+  const ComponentType component = component_of(type);
+  const RawAccessor raw{component, 3, normalized, colors.unexposed.size(),
+                        encode_floats(values, component, normalized)};
+  return append_accessor(document, buffer, picked(raw, kept), BufferTarget::kVertices);
 }
 
 void add_reflectance(const Rgb& rho, bool is_first, VertexColors& colors) {

@@ -83,6 +83,14 @@ std::size_t export_color_accessor(Document& document, BufferBuilder& buffer, con
 /// Keeps the reflectance as long as it is the same at every vertex.
 void add_reflectance(const radiosity::Rgb& rho, bool is_first, VertexColors& colors);
 
+/// The share of one light group in `vertex_colors` of an instance. REQUIRES: bake.group_irradiance.
+VertexColors group_colors(const ImportedScene& scene, const radiosity::Bake& bake, const RefinedPrimitive& refined,
+                          std::uint32_t instance, const ColorParts& parts, ShownTexture texture, std::uint32_t group);
+
+/// Appends an accessor with k x colours without alpha, floats without a limit, and returns its index.
+std::size_t export_light_accessor(Document& document, BufferBuilder& buffer, const VertexColors& colors,
+                                  std::span<const std::uint32_t> kept, const radiosity::Rgb& k, ColorType type);
+
 /// Notes what turns COLOR_0 into illuminance, so that a page can show it (plugin/page/illuminance.js): `reflectance`
 /// and `emits` into the primitive's extras.radiosity.
 void note_reflectance(const VertexColors& colors, Json& primitive);

@@ -87,6 +87,23 @@ std::vector<radiosity::ExposureSample> samples_of(const std::vector<VertexColors
   return samples;
 }
 
+ColorParts color_parts(const Options& options) {
+  const bool unlit = options.target == Target::kUnlit;
+  return {unlit, unlit && options.bake != BakedLight::kIndirect};
+}
+
+/// Those of each light group, [light_groups.size()], or empty.
+std::vector<VertexColors> colors_of_groups(const ImportedScene& scene, const radiosity::Bake& bake,
+                                           const RefinedPrimitive& refined, std::size_t instance,
+                                           const Options& options, const std::vector<ShownTexture>& textures) {
+  std::vector<VertexColors> colors;
+  for (std::uint32_t group = 0; group < scene.light_groups.size(); ++group) {
+    colors.push_back(group_colors(scene, bake, refined, static_cast<std::uint32_t>(instance), color_parts(options),
+                                  textures[scene.instances[instance].material], group));
+  }
+  return colors;
+}
+
 /// All colours, with the texture that suits each material, and the exposure they want.
 std::vector<VertexColors> exposed_colors(const ImportedScene& scene, const radiosity::Bake& bake,
                                          const std::vector<RefinedPrimitive>& refined, const Options& options,
@@ -217,6 +234,8 @@ ExportReport export_scene(Document& document, BufferBuilder& buffer, const Impor
   // Geometry and colours.
   progress.update("export", 0.0);
   const OutputStyle style = output_style(options);
+  GroupExport groups{document, buffer, options.light_groups, style.color_type,
+                     group_names(document.json, scene.light_groups)};
   std::vector<BakedPrimitive> baked;
   const std::vector<std::size_t> nodes = expand_copies(document, scene.instances);
   const std::vector<std::size_t> meshes = separate_meshes(document.json, scene.instances, nodes);
@@ -233,6 +252,8 @@ ExportReport export_scene(Document& document, BufferBuilder& buffer, const Impor
     primitive["attributes"]["COLOR_0"] =
         export_color_accessor(document, buffer, colors[i], refined[i].kept, k / factor, style.color_type);
     note_reflectance(colors[i], primitive);
+    export_group_colors(groups, colors[i], colors_of_groups(scene, bake, refined[i], i, options, textures),
+                        refined[i].kept, k / factor, meshes[i], primitive);
     if (!options.radiance_attribute.empty()) {
       primitive["attributes"][radiance_semantic(options)] =
           export_radiance_accessor(document, buffer, colors[i], refined[i].kept, k);
@@ -244,6 +265,8 @@ ExportReport export_scene(Document& document, BufferBuilder& buffer, const Impor
   sign(document.json, report, options);
   report.refined = std::move(refined);
   report.textures = std::move(textures);
+  finish_groups(groups, warnings);
+  report.group_bytes = std::move(groups.bytes);
   return report;
 }
 

@@ -8,6 +8,7 @@
 #include "plugin/append_accessor.h"
 #include "plugin/document.h"
 #include "plugin/export_colors.h"
+#include "plugin/export_light_groups.h"
 #include "plugin/import_scene.h"
 #include "plugin/simplify_scene.h"
 
@@ -31,6 +32,7 @@ struct ExportReport {
   std::vector<ExportedColors> colors;     ///< of the instances that received light
   std::vector<RefinedPrimitive> refined;  ///< [instance_count]
   std::vector<ShownTexture> textures;     ///< [material_count]
+  GroupBytes group_bytes{};               ///< for LightGroupStorage::kFiles
 };
 
 /// What COLOR_0 holds beside the light.
@@ -39,7 +41,8 @@ ColorParts color_parts(const Options& options);
 /// Gives every primitive instance that receives light its COLOR_0, an unlit material (or what options.target says) and,
 /// where it was subdivided or simplified, its new geometry; new data goes into `buffer`. A mesh stays where it is for
 /// its first baked node if only baked nodes use it; other nodes get copies. Instanced copies become nodes
-/// (instancing.h). What was done goes into asset.extras.radiosity, warnings into `warnings`. Throws `Cancelled`.
+/// (instancing.h). With options.light_groups the light of scene.light_groups goes beside the whole. What was done goes
+/// into asset.extras.radiosity, warnings into `warnings`. Throws `Cancelled`.
 ExportReport export_scene(Document& document, BufferBuilder& buffer, const ImportedScene& scene,
                           const radiosity::Bake& bake, const Options& options, std::vector<Warning>& warnings,
                           const radiosity::Progress& progress);

@@ -13,7 +13,9 @@
 #include "plugin/export_colors.h"
 #include "plugin/export_scene.h"
 #include "plugin/firewall.h"
+#include "plugin/group_files.h"
 #include "plugin/import_scene.h"
+#include "plugin/light_groups.h"
 #include "plugin/make_report.h"
 #include "plugin/memory_budget.h"
 #include "plugin/phases.h"
@@ -89,7 +91,8 @@ radiosity::BakeOptions bake_options(const Options& options, const ImportedScene&
   result.row_cache_bytes = static_cast<std::size_t>(memory.left() / 2);
   result.subdivide.max_elements =
       std::min<std::size_t>(result.subdivide.max_elements, memory.left() / 4 / kBytesPerElement);
-  result.light_groups = result.keep_transport = !options.save_transport.empty();
+  result.keep_transport = !options.save_transport.empty();
+  result.light_groups = result.keep_transport || options.light_groups != LightGroupStorage::kNone;
   result.parts = parts_of(options.bake);
   result.show_reached_side = options.two_sided == TwoSided::kLit;
   result.residual = static_cast<float>(options.residual);
@@ -106,10 +109,28 @@ double patch_size_of(const Options& options, const ImportedScene& scene) {
                                                                 : radiosity::coarse_patch_size(scene.scene));
 }
 
-/// Import, bake, export and compress: patches `document`, new data goes into `added`.
-Result<Report> bake_document(Document& document, BufferBuilder& added, const Options& options,
-                             const radiosity::Progress& progress) {
+/// What is to be written.
+struct Baked {
+  Document document;
+  BufferBuilder added;
+  std::vector<GroupFile> groups;  ///< with LightGroupStorage::kFiles
+};
+
+/// Names the scene's light groups, if they are to be kept apart.
+Result<Done> name_light_groups(const Document& document, const Options& options, ImportedScene& scene,
+                               std::vector<Warning>& warnings) {
+  if (options.light_groups == LightGroupStorage::kNone) return Done{};
+  Result<std::vector<std::string>> names = group_lights(document, options, scene, warnings);
+  if (!names) return names.error();
+  scene.light_groups = std::move(*names);
+  return check_group_attributes_are_free(document, options, scene.light_groups);
+}
+
+/// Import, bake, export and compress.
+Result<Report> bake_document(Baked& baked, const Options& options, const radiosity::Progress& progress) {
   // Import.
+  Document& document = baked.document;
+  BufferBuilder& added = baked.added;
   Report report;
   report.warnings = document.warnings;
   progress.update("import", 0.0);
@@ -119,6 +140,7 @@ Result<Report> bake_document(Document& document, BufferBuilder& added, const Opt
     if (const auto few = check_sources(*scene); !few) return few.error();
     let_every_source_shine(*scene);
   }
+  if (const auto named = name_light_groups(document, options, *scene, report.warnings); !named) return named.error();
   if (const auto wrong = radiosity::validate(scene->scene)) return Error{ErrorCode::kInternal, "", *wrong};
   if (const auto free = check_attribute_is_free(document, *scene, options); !free) return free.error();
   add_figures(*scene, report);
@@ -126,19 +148,21 @@ Result<Report> bake_document(Document& document, BufferBuilder& added, const Opt
 
   // Bake.
   report.patch_size = patch_size_of(options, *scene);
-  const Result<CachedBake> baked =
+  const Result<CachedBake> cached =
       bake_through_cache(document, *scene, options, bake_options(options, *scene, report.patch_size, *document.memory),
                          report.warnings, progress);
-  if (!baked) return baked.error();
-  const radiosity::Bake& bake = baked->bake;
-  report.cache = name_of(baked->spared);
+  if (!cached) return cached.error();
+  const radiosity::Bake& bake = cached->bake;
+  report.cache = name_of(cached->spared);
   add_figures(bake.report, report);
   add_warnings(bake.report, report.warnings);
 
   // Export.
   const auto export_and_compress = [&]() -> Result<Done> {
-    const ExportReport exported = export_scene(document, added, *scene, bake, options, report.warnings, progress);
+    const std::vector<GroupNames> names = group_names(document.json, scene->light_groups);
+    ExportReport exported = export_scene(document, added, *scene, bake, options, report.warnings, progress);
     if (options.strip_lights) strip_lights(document);
+    baked.groups = group_files(document, added, exported.group_bytes, names);
     progress.update("export", 1.0);
     add_figures(exported, report);
     if (bake.transport) {
@@ -148,10 +172,13 @@ Result<Report> bake_document(Document& document, BufferBuilder& added, const Opt
       progress.update("transport", 1.0);
     }
     compress_geometry(document, added, options, report.warnings, progress);
+    std::vector<Warning> same_again;  // the output was warned about
+    for (GroupFile& group : baked.groups) compress_geometry(group.document, group.added, options, same_again, progress);
     return Done{};
   };
   if (const auto done = radiosity::on_threads(options.threads, export_and_compress); !done) return done.error();
   add_figures(options, report);
+  report.light_groups = scene->light_groups;
   return report;
 }
 
@@ -167,13 +194,13 @@ Result<Report> bake_between(const Read& read, const Write& write, const Options&
   progress.update("read", 1.0);
 
   // Bake.
-  BufferBuilder added;
-  Result<Report> report = bake_document(*document, added, options, progress);
+  Baked baked{std::move(*document), {}, {}};
+  Result<Report> report = bake_document(baked, options, progress);
   if (!report) return report.error();
 
   // Write.
   progress.update("write", 0.0);
-  const Result<Done> written = write(std::move(*document), added);
+  const Result<Done> written = write(std::move(baked));
   if (!written) return written.error();
   progress.report("write", 1.0);  // too late to be cancelled
   report->phases = phases.finish();
@@ -194,8 +221,9 @@ Result<Report> bake_file(const std::string& input, const std::string& output, co
     std::vector<std::string> outputs = options.also_written;
     if (!options.force) outputs.push_back(output);
     const auto read = [&] { return read_document(input, {options.allow_outside, outputs, max_memory_of(options)}); };
-    const auto write = [&](Document document, const BufferBuilder& added) {
-      return write_gltf(std::move(document), added, output);
+    const auto write = [&](Baked baked) {
+      if (baked.groups.empty()) return write_gltf(std::move(baked.document), baked.added, output);
+      return write_with_groups(std::move(baked.document), baked.added, std::move(baked.groups), input, output);
     };
     return bake_between(read, write, options, callbacks);
   });
@@ -204,23 +232,26 @@ Result<Report> bake_file(const std::string& input, const std::string& output, co
 Result<BakedGlb> bake_memory(std::span<const std::byte> input, const Options& options, const Callbacks& callbacks) {
   return behind_firewall([&]() -> Result<BakedGlb> {
     if (const auto checked = check_options(options); !checked) return checked.error();
-    BakedGlb baked;
+    if (options.light_groups == LightGroupStorage::kFiles) {
+      return Error{ErrorCode::kBadOption, "--light-groups", "files cannot be written to memory"};
+    }
+    BakedGlb result;
     const auto read = [&] {
       ReadOptions reading;
       reading.max_memory = max_memory_of(options);
       return read_document(std::span(reinterpret_cast<const std::uint8_t*>(input.data()), input.size()), {}, reading);
     };
-    const auto write = [&](Document document, const BufferBuilder& added) -> Result<Done> {
-      const Result<Bytes> glb = to_glb(std::move(document), added);
+    const auto write = [&](Baked baked) -> Result<Done> {
+      const Result<Bytes> glb = to_glb(std::move(baked.document), baked.added);
       if (!glb) return glb.error();
-      baked.glb.resize(glb->size());
-      std::memcpy(baked.glb.data(), glb->data(), glb->size());
+      result.glb.resize(glb->size());
+      std::memcpy(result.glb.data(), glb->data(), glb->size());
       return Done{};
     };
     Result<Report> report = bake_between(read, write, options, callbacks);
     if (!report) return report.error();
-    baked.report = std::move(*report);
-    return baked;
+    result.report = std::move(*report);
+    return result;
   });
 }
 

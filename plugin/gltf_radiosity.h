@@ -32,6 +32,8 @@ enum class LightUnits { kAuto, kSi, kBlender };
 enum class ColorType { kFloat, kU16, kU8 };
 enum class BakedLight { kBoth, kDirect, kIndirect };
 enum class Target { kUnlit, kKeep };
+/// Where the light of each light group goes.
+enum class LightGroupStorage { kNone, kMorph, kAttributes, kFiles };
 enum class TwoSided { kFront, kLit };
 enum class Engine { kAny, kThree, kBabylon, kGodot, kUnity, kUnreal, kBlender };
 
@@ -98,8 +100,12 @@ struct Options {
   Target target = Target::kUnlit;  ///< kKeep: materials stay lit, and COLOR_0 is light without their base colour
   std::string radiance_attribute;  ///< name of a custom attribute for the light of COLOR_0, not clamped; empty: none
   std::string save_transport;      ///< a file that relight.h changes the light by; empty: none
-  bool strip_lights = false;       ///< leaves punctual and image based lights out of the output
-  bool force = false;              ///< the output may replace the input, or a buffer or image of it
+  /// The light of each group of lamps beside the whole: as morph targets, as attributes, or in a file for each.
+  LightGroupStorage light_groups = LightGroupStorage::kNone;
+  /// Group name, and a pattern (*, ?, [...]) of names of lights, their nodes and emissive materials: light_groups.h
+  std::vector<std::pair<std::string, std::string>> groups;
+  bool strip_lights = false;              ///< leaves punctual and image based lights out of the output
+  bool force = false;                     ///< the output may replace the input, or a buffer or image of it
   std::vector<std::string> also_written;  ///< what the caller writes himself, as reports: refused if it is the input's
   int draco_bits = 0;                     ///< colours within KHR_draco_mesh_compression, [8, 24]; 0 does not compress
   bool meshopt = false;                   ///< EXT_meshopt_compression; not together with Draco
@@ -144,31 +150,33 @@ struct Report {
   double estimated_error = 0.0;  ///< of the baked light: root mean square over mean luminance
   std::uint64_t refine_rounds = 0;
   std::string refine_end;  ///< why refinement ended: "error", "limit", "floor", "time"; empty where it was not adaptive
-  bool time_limit_reached = false;    ///< the light is what there was when time was up
-  double emitted_flux = 0.0;          ///< lm
-  double absorbed_flux = 0.0;         ///< lm
-  double escaped_flux = 0.0;          ///< lm
-  double closure_error = 0.0;         ///< largest difference of a row of form factors from 1
-  double reciprocity_error = 0.0;     ///< mean |A_i F_ij - A_j F_ji| over mean A_i F_ij
-  std::uint64_t lamps = 0;            ///< parts of emissive triangles that get shadow rays
-  double glow_share = 0.0;            ///< of the emitted light: what gets none, [0,1]
-  double exposure = 1.0;              ///< k, m2/cd
-  double clipped_share = 0.0;         ///< of the baked area
-  std::uint64_t baked_triangles = 0;  ///< of output_triangles: those that received light
-  std::string light;                  ///< "both", "direct" or "indirect"
-  std::string color_type;             ///< "float", "u16" or "u8"
-  std::string compression;            ///< "draco", "meshopt" or empty
-  std::string visibility;             ///< "raster" or "rays"
-  std::string cache;                  ///< what the cache spared: "nothing", "form-factors" or "bake"; empty without one
-  std::uint64_t transport_bytes = 0;    ///< of the file for relighting; 0 without one
-  std::uint64_t transport_sources = 0;  ///< lights, emissive materials and skies that it can change
-  bool transport_reflectance = false;   ///< whether it can change what surfaces reflect
+  bool time_limit_reached = false;        ///< the light is what there was when time was up
+  double emitted_flux = 0.0;              ///< lm
+  double absorbed_flux = 0.0;             ///< lm
+  double escaped_flux = 0.0;              ///< lm
+  double closure_error = 0.0;             ///< largest difference of a row of form factors from 1
+  double reciprocity_error = 0.0;         ///< mean |A_i F_ij - A_j F_ji| over mean A_i F_ij
+  std::uint64_t lamps = 0;                ///< parts of emissive triangles that get shadow rays
+  double glow_share = 0.0;                ///< of the emitted light: what gets none, [0,1]
+  double exposure = 1.0;                  ///< k, m2/cd
+  double clipped_share = 0.0;             ///< of the baked area
+  std::uint64_t baked_triangles = 0;      ///< of output_triangles: those that received light
+  std::string light;                      ///< "both", "direct" or "indirect"
+  std::string color_type;                 ///< "float", "u16" or "u8"
+  std::string compression;                ///< "draco", "meshopt" or empty
+  std::string visibility;                 ///< "raster" or "rays"
+  std::string cache;                      ///< what the cache spared: "nothing", "form-factors", "bake"; empty without
+  std::uint64_t transport_bytes = 0;      ///< of the file for relighting; 0 without one
+  std::uint64_t transport_sources = 0;    ///< lights, emissive materials and skies that it can change
+  bool transport_reflectance = false;     ///< whether it can change what surfaces reflect
+  std::vector<std::string> light_groups;  ///< their names; empty unless they were kept apart
   std::vector<PhaseReport> phases;
   std::vector<Warning> warnings;
 };
 
 /// Bakes `input` (.glb or .gltf) and writes `output`: .glb, .gltf with a .bin beside it, or .embedded.gltf with
-/// everything in one JSON file. The output appears whole or not at all.
+/// everything in one JSON file. With LightGroupStorage::kFiles there is an output.NAME.glb for each group besides. All
+/// of it appears whole or not at all.
 Result<Report> bake_file(const std::string& input, const std::string& output, const Options& options,
                          const Callbacks& callbacks = {});
 

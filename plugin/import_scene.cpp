@@ -100,7 +100,7 @@ class SceneImporter {
   Result<Done> import_node(const PlacedNodes& placed, std::uint32_t node) {
     const Json& json = document_.json["nodes"][node];
     if (const Json* light = extension_of(json, "KHR_lights_punctual")) {
-      import_punctual_light(*light, json.value("name", std::string()), placed.world_from_node[node]);
+      import_punctual_light(*light, node, placed.world_from_node[node]);
       if (!radiosity::is_in_reach(result_.scene.lights.back().position)) {
         return bad_input(place_of("nodes", node), "its light lies beyond 1e8 m");
       }
@@ -361,12 +361,14 @@ class SceneImporter {
 
   // Light.
 
-  void import_punctual_light(const Json& reference, const std::string& node, const glm::dmat4& world_from_node) {
+  void import_punctual_light(const Json& reference, std::uint32_t node, const glm::dmat4& world_from_node) {
     if (!unit_factor_) unit_factor_ = light_unit_factor(document_, options_.light_units, warnings_);
     const Json& lights = document_.json["extensions"]["KHR_lights_punctual"]["lights"];
     const auto index = reference["light"].get<std::uint32_t>();
+    const auto name = document_.json["nodes"][node].value("name", std::string());
     result_.scene.lights.push_back(import_light(lights[index], world_from_node, *unit_factor_));
-    result_.scene.lights.back().light_group = source_of_light(lights, index, node);
+    result_.scene.lights.back().light_group = source_of_light(lights, index, name);
+    result_.node_of_light.push_back(node);
     ++result_.punctual_light_count;
   }
 

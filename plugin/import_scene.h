@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/scene.h"
@@ -39,6 +40,8 @@ struct ImportedScene {
       vertex_colors;  ///< the source's COLOR_0, linear RGBA, [vertex_count * 4]; ones where there is none
   std::vector<std::int8_t> level_of_triangle;  ///< subdivision overrides, [triangle_count]
   std::vector<LightSource> sources;            ///< each is a light group of the scene
+  std::vector<std::uint32_t> node_of_light;    ///< of the first lights of `scene`, those of KHR_lights_punctual
+  std::vector<std::string> light_groups;       ///< names (light_groups.h); empty if they are not kept apart
   std::uint64_t punctual_light_count = 0, emissive_triangle_count = 0;
 
   ImportedMaterial& material_of_surface(std::size_t surface) { return materials[detail->material_of_surface[surface]]; }

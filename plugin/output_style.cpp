@@ -32,6 +32,20 @@ const char* name_of(BakedLight light) {
   return light == BakedLight::kBoth ? "both" : light == BakedLight::kDirect ? "direct" : "indirect";
 }
 
+const char* name_of(LightGroupStorage storage) {
+  switch (storage) {
+    case LightGroupStorage::kMorph:
+      return "morph";
+    case LightGroupStorage::kAttributes:
+      return "attributes";
+    case LightGroupStorage::kFiles:
+      return "files";
+    case LightGroupStorage::kNone:
+      break;
+  }
+  return "none";
+}
+
 OutputStyle output_style(const Options& options) {
   OutputStyle style = style_of(options.engine);
   if (options.meshopt && style.color_type == ColorType::kFloat) style.color_type = ColorType::kU16;

@@ -17,6 +17,8 @@ struct OutputStyle {
 const char* name_of(ColorType type);
 /// "both", "direct" or "indirect".
 const char* name_of(BakedLight light);
+/// "none", "morph", "attributes" or "files".
+const char* name_of(LightGroupStorage storage);
 
 /// Options given explicitly win over the engine's.
 OutputStyle output_style(const Options& options);

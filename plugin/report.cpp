@@ -152,7 +152,8 @@ std::string to_json(const Report& report) {
                {"cache", report.cache},
                {"transportBytes", report.transport_bytes},
                {"transportSources", report.transport_sources},
-               {"transportReflectance", report.transport_reflectance}};
+               {"transportReflectance", report.transport_reflectance},
+               {"lightGroups", report.light_groups}};
 
   add_lists(report.phases, report.warnings, json);
   return json.dump(2, ' ', false, Json::error_handler_t::replace);

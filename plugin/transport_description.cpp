@@ -24,7 +24,8 @@ Json json_of(const LightSource& source) {
           {"nodes", source.nodes},
           {"source", json_of(source.source)},
           {"strength", json_of(source.strength)},
-          {"color", json_of(source.color)}, {"coreUnits", source.core_units}};
+          {"color", json_of(source.color)},
+          {"coreUnits", source.core_units}};
 }
 
 LightSource source_of(const Json& json) {

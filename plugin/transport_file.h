@@ -49,10 +49,10 @@ struct TransportDescription {
   std::vector<std::uint32_t> material_of_surface;
   std::vector<TransportPrimitive> primitives;
   double exposure = 1.0;
-  std::uint64_t geometry = 0;     ///< geometry_hash() of the source
+  std::uint64_t geometry = 0;          ///< geometry_hash() of the source
   std::optional<std::uint32_t> scene;  ///< options.scene
-  bool tinted = true;             ///< COLOR_0 holds the base colour factor
-  std::string radiance_semantic;  ///< of the attribute that holds light without a limit; empty: none
+  bool tinted = true;                  ///< COLOR_0 holds the base colour factor
+  std::string radiance_semantic;       ///< of the attribute that holds light without a limit; empty: none
   radiosity::LightParts parts = radiosity::LightParts::kBoth;
   ColorType color_type = ColorType::kFloat;
   int draco_bits = 0;

@@ -204,23 +204,31 @@ Result<Done> check_output(const std::filesystem::path& output) {
   return Done{};
 }
 
-Result<Done> write_gltf(Document document, const BufferBuilder& added, const std::filesystem::path& output) {
+Result<Done> add_gltf(Document document, const BufferBuilder& added, const std::filesystem::path& output,
+                      PendingFiles& files) {
   const std::optional<FileKind> kind = file_kind(output);
   if (!kind) return Error{ErrorCode::kBadOption, output.string(), "the output's name must end in .glb or .gltf"};
-  PendingFiles files(output);
-  if (kind == FileKind::kGlb) {
-    const Result<Bytes> glb = to_glb(std::move(document), added);
-    if (!glb) return glb.error();
-    if (auto written = files.add(output, *glb); !written) return written;
-  } else if (auto written = write_json(document, added, *kind, output, files); !written) {
-    return written;
-  }
+  if (kind != FileKind::kGlb) return write_json(document, added, *kind, output, files);
+  const Result<Bytes> glb = to_glb(std::move(document), added);
+  if (!glb) return glb.error();
+  return files.add(output, *glb);
+}
+
+Result<Done> commit_gltfs(PendingFiles& files, std::span<const std::filesystem::path> outputs) {
   {
-    const FolderLock lock(folder_of(output), FolderLock::Kind::kShared);
+    const FolderLock lock(folder_of(outputs.front()), FolderLock::Kind::kShared);
     if (auto committed = files.commit(); !committed) return committed;
   }
-  if (kind == FileKind::kGltf) remove_old_bins(output);
+  for (const fs::path& output : outputs) {
+    if (file_kind(output) == FileKind::kGltf) remove_old_bins(output);
+  }
   return Done{};
+}
+
+Result<Done> write_gltf(Document document, const BufferBuilder& added, const std::filesystem::path& output) {
+  PendingFiles files(output);
+  if (const auto written = add_gltf(std::move(document), added, output, files); !written) return written;
+  return commit_gltfs(files, {&output, 1});
 }
 
 }  // namespace gltf_radiosity

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 
 #include "plugin/append_accessor.h"
 #include "plugin/document.h"
+#include "plugin/pending_files.h"
 
 namespace gltf_radiosity {
 
@@ -29,10 +31,17 @@ Result<Bytes> to_glb(Document document, const BufferBuilder& added, std::uint64_
 /// written to, not something else than a file.
 Result<Done> check_output(const std::filesystem::path& output);
 
-/// Writes a file of the kind its name says. Images that lie outside the output's folder are copied into it; no file
-/// that holds something else is overwritten by that. Files appear whole or not at all (pending_files.h): the .bin
-/// first, under a name that depends on what it holds, then the .gltf that refers to it; so an old output stays whole
-/// until the new one is. What then is left of the old one is removed (old_bins.h).
+/// Adds a file of the kind its name says to those that are to appear, what it refers to before it. Images that lie
+/// outside the output's folder are copied into it; no file that holds something else is overwritten by that. The .bin
+/// has a name that depends on what it holds, so that an old output stays whole until the new one is.
+Result<Done> add_gltf(Document document, const BufferBuilder& added, const std::filesystem::path& output,
+                      PendingFiles& files);
+
+/// Lets files that were added appear, whole or not at all (pending_files.h), and removes what then is left of old ones
+/// (old_bins.h). `outputs`: at least one, all in one folder.
+Result<Done> commit_gltfs(PendingFiles& files, std::span<const std::filesystem::path> outputs);
+
+/// Adds one file and lets it appear.
 Result<Done> write_gltf(Document document, const BufferBuilder& added, const std::filesystem::path& output);
 
 }  // namespace gltf_radiosity

@@ -36,6 +36,10 @@ constexpr Choices<ColorType, 3> kColorType{
 constexpr Choices<BakedLight, 3> kBakedLight{
     {{"direct", BakedLight::kDirect}, {"indirect", BakedLight::kIndirect}, {"both", BakedLight::kBoth}}};
 constexpr Choices<TwoSided, 2> kTwoSided{{{"front", TwoSided::kFront}, {"lit", TwoSided::kLit}}};
+constexpr Choices<LightGroupStorage, 4> kLightGroups{{{"none", LightGroupStorage::kNone},
+                                                      {"morph", LightGroupStorage::kMorph},
+                                                      {"attributes", LightGroupStorage::kAttributes},
+                                                      {"files", LightGroupStorage::kFiles}}};
 constexpr Choices<Target, 2> kTarget{{{"unlit", Target::kUnlit}, {"keep", Target::kKeep}}};
 constexpr Choices<Engine, 7> kEngine{{{"three", Engine::kThree},
                                       {"babylon", Engine::kBabylon},
@@ -200,6 +204,15 @@ void add_style(CLI::App& app, Options& options) {
       {"--radiance-attribute", "NAME", "none",
        "Write the light of COLOR_0 a second time, as floats without a limit, into the custom attribute _NAME"},
       [&options](const std::string& text) { options.radiance_attribute = parse_attribute_name(text); });
+  add_choice(app, "--light-groups",
+             "Keep the light of each group of lamps apart, to be dimmed later: as morph targets of COLOR_0 (morph), as "
+             "attributes _LIGHT_NAME (attributes), or in files OUT.NAME (files)",
+             options.light_groups, kLightGroups);
+  add_repeated(app,
+               {"--group", "NAME=PATTERN", "none",
+                "Lights and emissive materials of this name, or at nodes of it, belong to the group NAME (*, ? and "
+                "[ab] stand for others); may be repeated"},
+               [&options](const std::string& text) { options.groups.push_back(parse_group(text)); });
   app.add_flag_callback(
       "--strip-lights", [&options] { options.strip_lights = true; },
       "Leave the lights of the file out of the output, punctual and image based ones: their light is in the colours "

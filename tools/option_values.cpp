@@ -101,6 +101,14 @@ std::pair<std::string, int> parse_subdivide(std::string_view text) {
   return {std::string(text.substr(0, equals)), parse_integer(text.substr(equals + 1), 0, 8)};
 }
 
+std::pair<std::string, std::string> parse_group(std::string_view text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos || equals == 0 || equals + 1 == text.size()) {
+    throw BadValue("'" + std::string(text) + "' is not NAME=PATTERN");
+  }
+  return {std::string(text.substr(0, equals)), std::string(text.substr(equals + 1))};
+}
+
 std::string parse_attribute_name(std::string_view text) {
   const auto is_allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';

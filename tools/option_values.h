@@ -51,6 +51,9 @@ std::pair<int, int> parse_size(std::string_view text, int least, int most);
 /// NAME=LEVEL, cut at the last equals sign because names may hold one; LEVEL in [0, 8].
 std::pair<std::string, int> parse_subdivide(std::string_view text);
 
+/// NAME=PATTERN, cut at the first equals sign; neither is empty.
+std::pair<std::string, std::string> parse_group(std::string_view text);
+
 /// The name of a custom attribute: 1 to 64 letters, digits and underscores.
 std::string parse_attribute_name(std::string_view text);
 

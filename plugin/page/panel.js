@@ -144,7 +144,8 @@ function add_exposure(picture) {
 export function create_panel(model, picture) {
   by_id('panel').hidden = false
   by_id('facts').textContent = facts(model)
-  const names = model.signature.lightGroups?.groups.map(({ name }) => name) ?? ['All light']
+  const { storage, groups } = model.signature.lightGroups ?? {}
+  const names = ['morph', 'attributes', 'file'].includes(storage) ? groups.map(({ name }) => name) : ['All light']
   const resets = [add_looks(picture), add_cameras(picture), add_exposure(picture), add_lux_scale(picture), add_lights(names, picture)]
   for (const reset of resets) reset()
   by_id('reset').addEventListener('click', () => resets.forEach((reset) => reset()))

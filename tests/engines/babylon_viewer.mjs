@@ -14,8 +14,8 @@ const canvas = document.createElement('canvas')
 // By default Babylon.js takes a power of 2.2 for sRGB: up to five codes off in the dark.
 const engine = new BABYLON.Engine(canvas, false, { preserveDrawingBuffer: true, useExactSrgbConversions: true })
 
-// RGBA bytes of the picture, rows from the top, as a plain array.
-export async function pixels_of(url, { width, height }) {
+// RGBA bytes of the picture, rows from the top, as a plain array. `code` is run before, with what was loaded as `scene`.
+export async function pixels_of(url, { width, height }, code = '') {
   Object.assign(canvas, { width, height })
   engine.setSize(width, height)
   const scene = new BABYLON.Scene(engine)
@@ -24,6 +24,7 @@ export async function pixels_of(url, { width, height }) {
   await BABYLON.AppendSceneAsync(url, scene)
   scene.activeCamera = scene.cameras[0]
   for (const light of [...scene.lights]) light.dispose()
+  new Function('scene', code)(scene)
   await scene.whenReadyAsync()
   scene.render()
   const rows = await engine.readPixels(0, 0, width, height)

@@ -6,6 +6,7 @@ import test from 'node:test'
 import { bake, run, temporary_folder, test_asset } from '../end_to_end/command_line.mjs'
 import { read_compressed } from '../end_to_end/compressed_file.mjs'
 import { open_browser } from './browser.mjs'
+import { mixed } from './mixed.mjs'
 import { assert_pixels, difference, probes } from './probes.mjs'
 
 const folder = temporary_folder()
@@ -156,6 +157,21 @@ test('the page of a bake', async (t) => {
     const page = await shown(page_of(file))
     assert.equal(await page.inputValue('#camera'), 'corner')
     assert_pixels(await picture_of(page), seen(read_compressed(file)), { width, tolerance: 4, least_probes: 300 })
+  })
+
+  await t.test('each group of lights has a dimmer and a colour, with every storage', async () => {
+    for (const storage of ['morph', 'attributes']) {
+      const file = baked('textured_interior', '--light-groups', storage)
+      const page = await shown(page_of(file))
+      const names = await page.locator('#lights .name').allTextContents()
+      assert.ok(names.length >= 2, `${names}`)
+      await move(page, `#lights li[data-group="${names[0]}"] input[type=range]`, 0.25)
+      await move(page, `#lights li[data-group="${names[1]}"] input[type=color]`, '#40ff80')
+      const dimmers = { [names[0]]: [0.25, 0.25, 0.25], [names[1]]: [64, 255, 128].map((code) => to_linear(code / 255)) }
+      const expected = seen(mixed(read_compressed(file), dimmers))
+      assert_pixels(await picture_of(page), expected, { width, tolerance: 4, least_probes: 300 })
+      await page.close()
+    }
   })
 
   await t.test('a title is text, whatever it holds', async () => {

@@ -37,9 +37,11 @@ function draw(gltf, view, lights = []) {
   renderer.render(scene, camera_for(gltf, view))
 }
 
-// RGBA bytes of the picture, rows from the top, as a plain array.
-export async function pixels_of(url, view) {
-  draw(await load(url), view)
+// RGBA bytes of the picture, rows from the top, as a plain array. `code` is run before, with what was loaded as `gltf` and `scene`.
+export async function pixels_of(url, view, code = '') {
+  const gltf = await load(url)
+  new Function('gltf', 'scene', 'THREE', code)(gltf, gltf.scene, THREE)
+  draw(gltf, view)
   const gl = renderer.getContext()
   const { width, height } = view
   const rows = new Uint8Array(4 * width * height)

@@ -31,6 +31,11 @@ TEST(ParseNumber, KeepsToTheRange) {
   EXPECT_EQ(parse_number("1", {0.0, 1.0}), 1.0);
 }
 
+TEST(ParseGroup, IsCutAtTheFirstEqualsSign) {
+  EXPECT_EQ(parse_group("hall=lamp=*"), (std::pair<std::string, std::string>("hall", "lamp=*")));
+  for (const std::string_view text : {"", "hall", "=lamp", "hall="}) EXPECT_THROW(parse_group(text), BadValue) << text;
+}
+
 TEST(ParseInteger, RefusesFractionsAndWhatIsOutOfRange) {
   EXPECT_EQ(parse_integer("32", 2, 512), 32);
   for (const std::string_view text : {"", "3.5", "1", "513", "99999999999999999999", "-4", "32x", "x", " 32", "3e1"}) {
