@@ -219,7 +219,7 @@ test('a name that nothing bears is refused with the names there are', () => {
 })
 
 test('where memory was short, lights can be changed, but not what surfaces reflect', () => {
-  const { rad, report } = bake_with_transport(box.scene, 'short', '--max-memory', '64M', '--patch-size', 0.005)
+  const { rad, report } = bake_with_transport(box.scene, 'short', '--max-memory', '64M', '--patch-size', 0.02)
   assert.equal(report.transportReflectance, false)
   assert.ok(report.warnings.some(({ code }) => code === 'transport-without-exchange'))
   relight(rad, target('short.glb'), '--emissive', `${emitter(box.scene)}=2`)
