@@ -87,11 +87,6 @@ std::vector<radiosity::ExposureSample> samples_of(const std::vector<VertexColors
   return samples;
 }
 
-ColorParts color_parts(const Options& options) {
-  const bool unlit = options.target == Target::kUnlit;
-  return {unlit, unlit && options.bake != BakedLight::kIndirect};
-}
-
 /// Those of each light group, [light_groups.size()], or empty.
 std::vector<VertexColors> colors_of_groups(const ImportedScene& scene, const radiosity::Bake& bake,
                                            const RefinedPrimitive& refined, std::size_t instance,
