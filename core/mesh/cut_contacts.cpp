@@ -14,8 +14,9 @@
 namespace radiosity {
 namespace {
 
-/// A vertex lies on a contact if it is no farther away than this share of the element's shortest edge.
-constexpr double kOnLine = 0.005;
+/// A vertex lies on a contact if it is no farther away than this, in surface offsets. The same for all elements,
+/// however small they get: what was on a line must not be beside it after a cut, or cuts never end.
+constexpr double kOnLine = 8.0;
 
 /// An element is cut through if the contact covers this share of its way through it; an edge is a seam from half.
 constexpr double kCutThrough = 0.3, kSeam = 0.5;
@@ -57,7 +58,7 @@ struct ContactCutter::Line {
 };
 
 ContactCutter::ContactCutter(CutMesh& cut, EdgeCopies& edges, const Scene& scene, std::span<const Contact> contacts)
-    : cut_(cut), edges_(edges), scene_(scene) {
+    : cut_(cut), edges_(edges), scene_(scene), tolerance_(kOnLine * double{surface_offset(scene)}) {
   for (const Contact& contact : contacts)
     lines_on_[contact.triangle].emplace_back(contact, normal_of(contact.triangle));
 }
@@ -72,17 +73,25 @@ glm::dvec3 ContactCutter::place_of(std::uint32_t position_class) const {
   return cut_.welder.positions()[position_class];
 }
 
-/// How far from a contact a vertex of an element may lie to be on it, metres.
-double ContactCutter::tolerance_of(std::uint32_t element) const {
-  double shortest = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t edge : cut_.bridge.edges_of(element))
-    shortest = std::min(shortest, cut_.squared_length(cut_.bridge.end_classes(edge)));
-  return std::max(kOnLine * std::sqrt(shortest), double{surface_offset_});
+/// Whether a cut at `place` of an edge is clear of all corners there: it would leave parts without area.
+bool ContactCutter::is_clear(std::span<const std::uint32_t> copies, const glm::dvec3& place) const {
+  for (const std::uint32_t copy : copies) {
+    for (unsigned int side = 0; side < 2; ++side) {
+      const std::uint32_t element = cut_.bridge.element_at(copy, side);
+      if (element == kNothing) continue;
+      for (const std::uint32_t edge : cut_.bridge.edges_of(element)) {
+        const glm::uvec2 ends = cut_.bridge.end_classes(edge);
+        if (glm::distance(place_of(ends.x), place) <= tolerance_ ||
+            glm::distance(place_of(ends.y), place) <= tolerance_)
+          return false;
+      }
+    }
+  }
+  return true;
 }
 
 /// An edge of an element that the line of a contact crosses, and where.
-std::optional<ContactCutter::Crossing> ContactCutter::crossing_of(const Line& line, std::uint32_t element,
-                                                                  double tolerance) const {
+std::optional<ContactCutter::Crossing> ContactCutter::crossing_of(const Line& line, std::uint32_t element) const {
   std::optional<Crossing> crossing;
   double first = std::numeric_limits<double>::infinity(), last = -first;
   const auto passes = [&](const glm::dvec3& at) {
@@ -92,13 +101,14 @@ std::optional<ContactCutter::Crossing> ContactCutter::crossing_of(const Line& li
   for (const std::uint32_t edge : cut_.bridge.edges_of(element)) {
     const glm::uvec2 classes = cut_.bridge.end_classes(edge);
     const glm::dvec3 a = place_of(classes.x), b = place_of(classes.y);
-    const int side_a = line.side(a, tolerance), side_b = line.side(b, tolerance);
+    const int side_a = line.side(a, tolerance_), side_b = line.side(b, tolerance_);
     if (side_a == 0) passes(a);
     if (side_b == 0) passes(b);
     if (side_a * side_b >= 0) continue;
     const double at = line.beside(a) / (line.beside(a) - line.beside(b));
-    passes(a + at * (b - a));
-    if (!crossing) crossing = {edge, static_cast<float>(at)};
+    const glm::dvec3 place = a + at * (b - a);
+    passes(place);
+    if (!crossing && is_clear(edges_.copies_of(edge), place)) crossing = {edge, static_cast<float>(at)};
   }
   if (crossing) crossing->covered = line.covered(first, last);
   return crossing;
@@ -107,10 +117,9 @@ std::optional<ContactCutter::Crossing> ContactCutter::crossing_of(const Line& li
 bool ContactCutter::is_parted(std::uint32_t element) const {
   const auto found = lines_on_.find(cut_.bridge.triangle_of(element));
   if (found == lines_on_.end()) return false;
-  const double tolerance = tolerance_of(element);
   int lines = 0;
   for (const Line& line : found->second) {
-    const std::optional<Crossing> crossing = crossing_of(line, element, tolerance);
+    const std::optional<Crossing> crossing = crossing_of(line, element);
     if (!crossing || !(crossing->covered > 0.0)) continue;
     if (++lines > 1 || crossing->covered < kParted) return false;
   }
@@ -125,12 +134,11 @@ bool ContactCutter::goes_on(std::uint32_t edge) const {
 }
 
 void ContactCutter::mark_seams(std::uint32_t element, std::span<const Line> lines) {
-  const double tolerance = tolerance_of(element);
   for (const std::uint32_t edge : cut_.bridge.edges_of(element)) {
     const glm::uvec2 classes = cut_.bridge.end_classes(edge);
     const glm::dvec3 a = place_of(classes.x), b = place_of(classes.y);
     const bool is_seam = std::ranges::any_of(lines, [&](const Line& line) {
-      return line.light_jumps && line.side(a, tolerance) == 0 && line.side(b, tolerance) == 0 &&
+      return line.light_jumps && line.side(a, tolerance_) == 0 && line.side(b, tolerance_) == 0 &&
              line.covered(line.place(a), line.place(b)) >= kSeam;
     });
     if (is_seam && goes_on(edge)) cut_.seams.insert(pair_key(classes));
@@ -146,10 +154,9 @@ std::vector<EdgeCopies::Part> ContactCutter::cut(std::uint32_t element, const Me
   while (!waiting.empty()) {
     // The next contact that crosses a piece.
     const std::uint32_t piece = waiting.back();
-    const double tolerance = tolerance_of(piece);
     std::optional<Crossing> crossing;
     for (const Line& line : found->second) {
-      crossing = crossing_of(line, piece, tolerance);
+      crossing = crossing_of(line, piece);
       if (crossing && crossing->covered >= kCutThrough) break;
       crossing.reset();
     }

@@ -54,15 +54,15 @@ class ContactCutter {
 
   glm::dvec3 normal_of(std::uint32_t triangle) const;
   glm::dvec3 place_of(std::uint32_t position_class) const;
-  double tolerance_of(std::uint32_t element) const;
-  std::optional<Crossing> crossing_of(const Line& line, std::uint32_t element, double tolerance) const;
+  bool is_clear(std::span<const std::uint32_t> copies, const glm::dvec3& place) const;
+  std::optional<Crossing> crossing_of(const Line& line, std::uint32_t element) const;
   bool goes_on(std::uint32_t edge) const;
   void mark_seams(std::uint32_t element, std::span<const Line> lines);
 
   CutMesh& cut_;
   EdgeCopies& edges_;
   const Scene& scene_;
-  float surface_offset_ = surface_offset(scene_);
+  double tolerance_;                                               ///< metres
   std::unordered_map<std::uint32_t, std::vector<Line>> lines_on_;  ///< a triangle
 };
 

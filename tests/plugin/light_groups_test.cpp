@@ -152,7 +152,7 @@ TEST(LightGroups, ThoseThatWereChosenAllHaveRoom) {
 TEST(LightGroups, ThereIsALimitToThose) {
   LitSquare square;
   for (int i = 0; i < 65; ++i) {
-    const std::string group = "g" + std::to_string(i);
+    const std::string group = std::string("g").append(std::to_string(i));
     square.builder.add_light(kPoint, {{"extras", {{"radiosity", {{"group", group}}}}}});
   }
   const auto names = square.group();

@@ -99,6 +99,20 @@ TEST(CutContacts, DoNotPartLightWhereOneSideIsBuried) {
   EXPECT_TRUE(floor.cut.mesh.side_of_seam.empty());
 }
 
+TEST(CutContacts, EndWhereCutsLeaveSmallerAndSmallerPieces) {
+  const Scene scene = test::cornell_box();
+  const RayScene rays(scene);
+  CutMesh cut(scene);
+  subdivide_uniform(cut, {.patch_size = 0.2F, .level_of_triangle = {}}, {});
+  cut.write_elements();
+  const std::size_t before = cut.mesh.elements.size();
+  const std::vector<Contact> contacts = find_contacts(rays, {0.2F, {}}, {});
+  ASSERT_FALSE(contacts.empty());
+  EdgeCopies edges(cut);
+  ContactCutter(cut, edges, scene, contacts).cut_all({.max_elements = 100'000});
+  EXPECT_LT(cut.mesh.elements.size(), 2 * before);
+}
+
 TEST(CutContacts, StayWithinTheVerticesAllowed) {
   for (const std::size_t most : {10U, 20U, 40U}) {
     Scene scene = test::floor_only();
