@@ -165,7 +165,7 @@ struct Report {
   std::string color_type;                 ///< "float", "u16" or "u8"
   std::string compression;                ///< "draco", "meshopt" or empty
   std::string visibility;                 ///< "raster" or "rays"
-  std::string cache;                      ///< what the cache spared: "nothing", "form-factors", "bake"; empty without
+  std::string cache;                      ///< what was spared: "nothing", "form-factors" or "bake"; empty without one
   std::uint64_t transport_bytes = 0;      ///< of the file for relighting; 0 without one
   std::uint64_t transport_sources = 0;    ///< lights, emissive materials and skies that it can change
   bool transport_reflectance = false;     ///< whether it can change what surfaces reflect

@@ -20,7 +20,8 @@ export function read_gltf(file) {
   const folder = path.dirname(file)
   if (bytes.toString('latin1', 0, 4) !== 'glTF') {
     const json = JSON.parse(bytes.toString('utf8'))
-    return { json, buffers: (json.buffers ?? []).map(({ uri }) => bytes_of_uri(uri, folder)), folder }
+    // A buffer that only meshopt falls back to has no bytes.
+    return { json, buffers: (json.buffers ?? []).map(({ uri }) => (uri ? bytes_of_uri(uri, folder) : undefined)), folder }
   }
   const chunks = {}
   for (let at = 12; at < bytes.length;) {

@@ -175,12 +175,11 @@ TEST_F(Verify, OptionsThatMakeNoSenseAreRefused) {
   EXPECT_EQ(refused([](VerifyOptions& o) { o.camera.width = 0; }).place, "--size");
   EXPECT_EQ(refused([](VerifyOptions& o) { o.camera.fov_degrees = 180.0; }).place, "--fov");
   EXPECT_EQ(refused([](VerifyOptions& o) { o.image = "error.jpg"; }).place, "--image");
-  const Error replaced = refused([&](VerifyOptions& o) {
-    o.image = file("scene.png", source());
-    std::filesystem::remove(o.image);
-    std::filesystem::create_hard_link(output, o.image);
-  });
-  EXPECT_EQ(replaced.place, "--image");
+  const std::string linked = file("scene.png", source());
+  std::filesystem::remove(linked);
+  std::filesystem::create_hard_link(output, linked);
+  const Error replaced = refused([&](VerifyOptions& o) { o.image = linked; });
+  EXPECT_EQ(replaced.place, linked);
   EXPECT_EQ(replaced.code, ErrorCode::kBadOption);
 }
 
