@@ -62,8 +62,10 @@ std::optional<Claim> claim_of(std::span<const std::uint8_t> blob) {
   buffer.Init(reinterpret_cast<const char*>(blob.data()), blob.size());
   draco::DracoHeader header{};
   if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok()) return std::nullopt;
-  if (DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor) < kBitstream22) return std::nullopt;
-  buffer.set_bitstream_version(DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor));
+  const auto bitstream =
+      static_cast<std::uint16_t>(DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor));
+  if (bitstream < kBitstream22) return std::nullopt;
+  buffer.set_bitstream_version(bitstream);
   if ((header.flags & METADATA_FLAG_MASK) != 0) {
     draco::GeometryMetadata skipped;
     if (!draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &skipped)) return std::nullopt;

@@ -42,10 +42,10 @@ Result<Done> write_with_groups(Document document, const BufferBuilder& added, st
       return Error{ErrorCode::kBadOption, path.string(), "the file of a light group is the input itself"};
     }
     if (const auto checked = check_output(path); !checked) return checked.error();
-    if (const auto written = add_gltf(std::move(group.document), group.added, path, files); !written) return written;
+    if (auto written = add_gltf(std::move(group.document), group.added, path, files); !written) return written;
     outputs.push_back(path);
   }
-  if (const auto written = add_gltf(std::move(document), added, output, files); !written) return written;
+  if (auto written = add_gltf(std::move(document), added, output, files); !written) return written;
   outputs.push_back(output);
   return commit_gltfs(files, outputs);
 }

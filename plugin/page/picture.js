@@ -58,7 +58,8 @@ export function create_picture(canvas, { scene, cameras, primitives, signature }
   const plain = new MeshBasicMaterial({ color: 0x5c5c5c, toneMapped: false })
   const own_material = new Map(others.map((object) => [object, object.material]))
   let wires = []
-  let state = { look: 'baked', compare: 0, wireframe: false, brightness: 1, weights: [[1, 1, 1]], lux: { end: 1, logarithmic: false } }
+  const weights = (signature.lightGroups?.groups ?? ['all light']).map(() => [1, 1, 1])
+  let state = { look: 'baked', compare: 0, wireframe: false, brightness: 1, weights, lux: { end: 1, logarithmic: false } }
   let waiting = false
 
   const show_as = (look) => {
