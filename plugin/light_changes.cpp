@@ -31,7 +31,7 @@ bool is_called(const LightSource& source, const std::string& name) {
 /// "there is no light 'x'; there are: a, b" (or none at all).
 Error no_such_name(const char* option, const char* what, const std::string& name, std::vector<std::string> known) {
   std::ranges::sort(known);
-  known.erase(std::ranges::unique(known).begin(), known.end());
+  known.erase(std::unique(known.begin(), known.end()), known.end());
   const std::string there = known.empty() ? "there is none" : fmt::format("there are: {}", fmt::join(known, ", "));
   return {ErrorCode::kBadOption, option, fmt::format("no {} is called '{}'; {}", what, name, there)};
 }
@@ -50,6 +50,7 @@ std::vector<std::size_t> find_sources(const TransportDescription& description,
 
 std::vector<std::string> names_of(const TransportDescription& description, const std::vector<std::size_t>& sources) {
   std::vector<std::string> names;
+  names.reserve(sources.size());
   for (const std::size_t s : sources) names.push_back(description.sources[s].name);
   return names;
 }

@@ -30,13 +30,13 @@ struct LightSource {
 
 /// What a source's strength is once let_every_source_shine(): its own, and in bands where that is none as much as in
 /// its brightest, or 1.
-radiosity::Rgb shining_strength(const radiosity::Rgb& strength);
+radiosity::Rgb shining_strength(const radiosity::Rgb& own);
 
 /// An error if there are more sources than each can be kept a light of its own.
 Result<Done> check_sources(const ImportedScene& scene);
 
 /// Gives every source a light in every band, and makes the scene's dimmers take it away again: then the light of each
 /// light group can be scaled to any colour.
-void let_every_source_shine(ImportedScene& scene);
+void let_every_source_shine(ImportedScene& imported);
 
 }  // namespace gltf_radiosity

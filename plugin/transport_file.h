@@ -70,7 +70,7 @@ struct SavedBake {
 };
 
 /// A number for where everything stands, of what and of what materials' surfaces. Lights and colours do not count.
-std::uint64_t geometry_hash(const ImportedScene& scene);
+std::uint64_t geometry_hash(const ImportedScene& imported);
 
 /// Writes the file options.save_transport and tells `report` about it.
 Result<Done> save_transport(const SavedBake& saved, Report& report);

@@ -58,10 +58,10 @@ struct VerifyReport {
   std::vector<Warning> warnings;
 };
 
-/// Compares the baked file `output` with its source `input`. Writes nothing but `options.image`, which appears whole or
+/// Compares the baked file `output` with its source `input`. Writes nothing but `wanted.image`, which appears whole or
 /// not at all. ErrorCode::kBadInput if nothing in `output` is baked (COLOR_0 beside KHR_materials_unlit), or if none of
 /// it lies on `input`.
-Result<VerifyReport> verify_files(const std::string& input, const std::string& output, const VerifyOptions& options,
+Result<VerifyReport> verify_files(const std::string& input, const std::string& output, const VerifyOptions& wanted,
                                   const Callbacks& callbacks = {});
 
 /// The report as JSON, indented by two spaces.

@@ -150,7 +150,7 @@ void append_part(std::string& page, std::string_view name, std::span<const std::
   static_assert(kPiece % 3 == 0);
   while (!bytes.empty()) {
     const auto piece = bytes.first(std::min(bytes.size(), kPiece));
-    page += fmt::format("<script type=\"application/octet-stream\" data-part=\"{}\">", name);
+    page += fmt::format(R"(<script type="application/octet-stream" data-part="{}">)", name);
     page += encode_base64(piece);
     page += "</script>\n";
     bytes = bytes.subspan(piece.size());

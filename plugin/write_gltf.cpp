@@ -227,7 +227,7 @@ Result<Done> commit_gltfs(PendingFiles& files, std::span<const std::filesystem::
 
 Result<Done> write_gltf(Document document, const BufferBuilder& added, const std::filesystem::path& output) {
   PendingFiles files(output);
-  if (const auto written = add_gltf(std::move(document), added, output, files); !written) return written;
+  if (auto written = add_gltf(std::move(document), added, output, files); !written) return written;
   return commit_gltfs(files, {&output, 1});
 }
 

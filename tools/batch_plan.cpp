@@ -50,6 +50,7 @@ Plan files_below(const fs::path& folder, const fs::path& to) {
 
   std::sort(found.begin(), found.end());
   std::vector<BatchFile> files;
+  files.reserve(found.size());
   for (const fs::path& input : found) files.push_back({input, to / input.lexically_relative(folder)});
   if (files.empty()) return Ending{kExitBadInput, folder.string() + ": holds no .glb and no .gltf"};
   return files;
