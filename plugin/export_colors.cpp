@@ -253,6 +253,14 @@ VertexColors group_colors(const ImportedScene& scene, const radiosity::Bake& bak
                             bake.group_irradiance[group], instance);
 }
 
+std::vector<radiosity::ExposureSample> samples_of(const std::vector<VertexColors>& colors) {
+  std::vector<radiosity::ExposureSample> samples;
+  for (const VertexColors& primitive : colors) {
+    samples.insert(samples.end(), primitive.samples.begin(), primitive.samples.end());
+  }
+  return samples;
+}
+
 RawAccessor color_rows(const VertexColors& colors, const Rgb& k, ColorType type) {
   // Expose and clamp.
   std::vector<float> values;

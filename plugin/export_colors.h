@@ -70,6 +70,9 @@ ColorTerms color_terms(const ImportedScene& scene, const radiosity::Bake& bake, 
 /// The brightest of each band at exposure k, within [2^-16, 1]; 1 where a band is black.
 radiosity::Rgb brightest(const VertexColors& colors, std::span<const std::uint32_t> kept, float k);
 
+/// What an exposure is chosen by, of all primitives.
+std::vector<radiosity::ExposureSample> samples_of(const std::vector<VertexColors>& colors);
+
 /// k x colours clamped to [0,1], RGBA.
 RawAccessor color_rows(const VertexColors& colors, const radiosity::Rgb& k, ColorType type);
 /// k x colours, floats without a limit, RGB.

@@ -79,14 +79,6 @@ void drop_variants(Json& primitive, const PrimitiveInstance& instance, std::vect
       {"variants-dropped", place, "the material variants of this primitive were dropped, the default one was baked"});
 }
 
-std::vector<radiosity::ExposureSample> samples_of(const std::vector<VertexColors>& colors) {
-  std::vector<radiosity::ExposureSample> samples;
-  for (const VertexColors& primitive : colors) {
-    samples.insert(samples.end(), primitive.samples.begin(), primitive.samples.end());
-  }
-  return samples;
-}
-
 /// Those of each light group, [light_groups.size()], or empty.
 std::vector<VertexColors> colors_of_groups(const ImportedScene& scene, const radiosity::Bake& bake,
                                            const RefinedPrimitive& refined, std::size_t instance,

@@ -57,7 +57,7 @@ std::vector<fs::path> files_in(const fs::path& folder) {
 
 void remove_old_bins(const fs::path& output) {
   // Nobody may switch to one of them meanwhile.
-  const fs::path folder = output.has_parent_path() ? output.parent_path() : fs::path(".");
+  const fs::path folder = folder_of(output);
   const FolderLock lock(folder, FolderLock::Kind::kExclusive);
   if (!lock.is_held()) return;
 

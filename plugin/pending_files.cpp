@@ -24,8 +24,6 @@ Error cannot_write(const fs::path& target, int code) {
   return {ErrorCode::kCannotWrite, target.string(), "cannot be written: " + std::generic_category().message(code)};
 }
 
-fs::path folder_or_here(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
-
 /// What the names of all temporary files of an output begin with; short enough for any file system.
 std::string temporary_prefix(const fs::path& output) {
   return fmt::format(".{}.tmp-", output.filename().string().substr(0, 200));
@@ -76,6 +74,8 @@ int flush_folder(const fs::path& folder) {
 
 }  // namespace
 
+fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
+
 PendingFiles::PendingFiles(const fs::path& output) : prefix_(temporary_prefix(output)) {}
 
 PendingFiles::~PendingFiles() {
@@ -117,7 +117,7 @@ Result<Done> PendingFiles::add_parts(const fs::path& target, std::span<const std
   if (fs::exists(file.target, error) && !fs::is_regular_file(file.target, error)) {
     return Error{ErrorCode::kCannotWrite, target.string(), "cannot be written: exists and is not a file"};
   }
-  const fs::path folder = folder_or_here(file.target);
+  const fs::path folder = folder_of(file.target);
   make_folder(folder);
   if (std::ranges::find(tidied_folders_, folder) == tidied_folders_.end()) {
     for_names(folder, prefix_, remove_if_abandoned);
@@ -151,9 +151,9 @@ Result<Done> PendingFiles::commit() {
     if (const int code = rename_file(file.temporary, file.target, file.replace); code != 0) {
       return cannot_write(file.target, code);
     }
-    folders.insert(folder_or_here(file.target));
+    folders.insert(folder_of(file.target));
   }
-  for (const fs::path& made : folders_) folders.insert(folder_or_here(made));
+  for (const fs::path& made : folders_) folders.insert(folder_of(made));
   files_.clear();
   folders_.clear();
 
@@ -167,7 +167,7 @@ Result<Done> PendingFiles::commit() {
 void remove_own_temporaries(const fs::path& output) {
   std::error_code error;
   const fs::path target = fs::is_symlink(output, error) ? fs::weakly_canonical(output, error) : output;
-  for_names(folder_or_here(target), fmt::format("{}{}-", temporary_prefix(output), ::getpid()),
+  for_names(folder_of(target), fmt::format("{}{}-", temporary_prefix(output), ::getpid()),
             [&error](const fs::path& file) { fs::remove(file, error); });
 }
 

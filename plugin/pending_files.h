@@ -19,6 +19,9 @@ enum class Replace {
   kNo,   ///< nothing: whoever puts something there meanwhile wins, and commit() fails
 };
 
+/// The folder that a file lies in; "." where its path names none.
+std::filesystem::path folder_of(const std::filesystem::path& file);
+
 /// Files written beside their targets under temporary names, `.OUTPUT.tmp-PROCESS-NUMBER`, and renamed together at the
 /// end. What was not renamed is removed by the destructor, and so are folders made for it.
 ///

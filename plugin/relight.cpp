@@ -136,8 +136,7 @@ Result<Done> write_colors(LoadedTransport& transport, const std::vector<VertexCo
 
 void choose_exposure(const TransportDescription& description, const std::vector<VertexColors>& colors,
                      const RelightOptions& options, RelightReport& report) {
-  std::vector<radiosity::ExposureSample> samples;
-  for (const VertexColors& own : colors) samples.insert(samples.end(), own.samples.begin(), own.samples.end());
+  const std::vector<radiosity::ExposureSample> samples = samples_of(colors);
   report.exposure = options.exposure.value_or(description.exposure);
   if (options.auto_exposure) report.exposure = static_cast<double>(radiosity::automatic_exposure(samples));
   report.clipped_share = static_cast<double>(radiosity::clipped_share(samples, static_cast<float>(report.exposure)));

@@ -80,7 +80,7 @@ struct ViewedScene {
 Result<ViewedScene> read_scene(const fs::path& baked) {
   Result<Bytes> bytes = read_file(baked, "");
   if (!bytes) return bytes.error();
-  Result<Document> document = read_document(*bytes, baked.has_parent_path() ? baked.parent_path() : fs::path("."));
+  Result<Document> document = read_document(*bytes, folder_of(baked));
   if (!document) return document.error();
   if (const auto checked = check_that_it_can_be_shown(document->json); !checked) return checked.error();
   ViewedScene scene;

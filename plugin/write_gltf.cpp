@@ -35,8 +35,6 @@ std::string text_of(const Json& root, int indent) {
   return root.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
-fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
-
 bool is_same_file(const fs::path& a, const fs::path& b) {
   std::error_code error;
   return fs::equivalent(a, b, error) && !error;

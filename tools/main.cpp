@@ -133,6 +133,8 @@ int batch_as_asked(const CommandLine& line) {
   return report_to_programs(line.json, to_json(summary), exit_code);
 }
 
+int run_as_asked(const CommandLine& line) { return line.batch ? batch_as_asked(line) : bake_as_asked(line); }
+
 int verify_as_asked(const VerifyCommand& command) {
   limit_memory(default_max_memory(), command.options.bake.threads);
 
@@ -163,8 +165,7 @@ int view_as_asked(const ViewCommand& command) {
   const Result<ViewReport> result = view_file(command.baked, command.html, command.options, callbacks_of(progress));
   if (!result) {
     progress.abandon();
-    print(stderr, error_line(result.error().text()));
-    return exit_code_of(result.error().code, interrupted_by());
+    return report_failure(result.error(), "");
   }
   progress.finish();
   for (const Warning& warning : result->warnings) print(stderr, warning_line(warning));
@@ -177,11 +178,7 @@ int relight_as_asked(const RelightCommand& command) {
   Callbacks callbacks;
   callbacks.cancelled = [] { return interrupted_by() != 0; };
   const Result<RelightReport> result = relight_file(command.transport, command.output, command.options, callbacks);
-  if (!result) {
-    print(stderr, error_line(result.error().text()));
-    return report_to_programs(command.json, to_json(result.error()),
-                              exit_code_of(result.error().code, interrupted_by()));
-  }
+  if (!result) return report_failure(result.error(), command.json);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   for (const Warning& warning : result->warnings) print(stderr, warning_line(warning));
   const int exit_code = report_to_programs(command.json, to_json(*result), kExitDone);
@@ -189,30 +186,19 @@ int relight_as_asked(const RelightCommand& command) {
   return exit_code;
 }
 
-int run(std::span<const char* const> arguments) {
-  if (is_relight_command(arguments)) {
-    const auto parsed = parse_relight_command(arguments);
-    if (const Ending* const ending = std::get_if<Ending>(&parsed)) return end_at_once(*ending);
-    catch_interrupts();
-    return relight_as_asked(std::get<RelightCommand>(parsed));
-  }
-  if (is_verify_command(arguments)) {
-    const auto parsed = parse_verify_command(arguments);
-    if (const Ending* const ending = std::get_if<Ending>(&parsed)) return end_at_once(*ending);
-    catch_interrupts();
-    return verify_as_asked(std::get<VerifyCommand>(parsed));
-  }
-  if (is_view_command(arguments)) {
-    const auto parsed = parse_view_command(arguments);
-    if (const Ending* const ending = std::get_if<Ending>(&parsed)) return end_at_once(*ending);
-    catch_interrupts();
-    return view_as_asked(std::get<ViewCommand>(parsed));
-  }
-  const auto parsed = parse_command_line(arguments);
+/// Does what was parsed, with signals caught.
+template <typename Command>
+int act(const std::variant<Command, Ending>& parsed, int (*as_asked)(const Command&)) {
   if (const Ending* const ending = std::get_if<Ending>(&parsed)) return end_at_once(*ending);
   catch_interrupts();
-  const CommandLine& line = std::get<CommandLine>(parsed);
-  return line.batch ? batch_as_asked(line) : bake_as_asked(line);
+  return as_asked(std::get<Command>(parsed));
+}
+
+int run(std::span<const char* const> arguments) {
+  if (is_relight_command(arguments)) return act(parse_relight_command(arguments), relight_as_asked);
+  if (is_verify_command(arguments)) return act(parse_verify_command(arguments), verify_as_asked);
+  if (is_view_command(arguments)) return act(parse_view_command(arguments), view_as_asked);
+  return act(parse_command_line(arguments), run_as_asked);
 }
 
 }  // namespace

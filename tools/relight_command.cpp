@@ -164,17 +164,10 @@ void finish_relight(const RelightCommand& command) {
 
 }  // namespace
 
-bool is_relight_command(std::span<const char* const> arguments) {
-  return arguments.size() > 1 && std::string_view(arguments[1]) == "relight";
-}
+bool is_relight_command(std::span<const char* const> arguments) { return names_subcommand(arguments, "relight"); }
 
 std::variant<RelightCommand, Ending> parse_relight_command(std::span<const char* const> arguments) {
-  RelightParser parser;
-  const auto after_relight = arguments.subspan(1);
-  if (auto ending = parse_with(parser.app, after_relight, [&parser] { finish_relight(parser.command); })) {
-    return std::move(*ending);
-  }
-  return std::move(parser.command);
+  return parse_subcommand<RelightParser>(arguments, finish_relight);
 }
 
 std::string relight_help_text() { return RelightParser().app.help(); }

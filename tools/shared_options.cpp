@@ -149,6 +149,10 @@ void check_that_differs(const std::string& option, const std::string& file, std:
   }
 }
 
+bool names_subcommand(std::span<const char* const> arguments, std::string_view name) {
+  return arguments.size() > 1 && arguments[1] == name;
+}
+
 std::optional<Ending> parse_with(CLI::App& app, std::span<const char* const> arguments,
                                  const std::function<void()>& finish) {
   try {

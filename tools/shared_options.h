@@ -6,6 +6,9 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
 
 #include "tools/command_line.h"
 #include "tools/option_values.h"
@@ -50,5 +53,19 @@ void check_that_differs(const std::string& option, const std::string& file, std:
 /// mistake.
 std::optional<Ending> parse_with(CLI::App& app, std::span<const char* const> arguments,
                                  const std::function<void()>& finish);
+
+/// Whether the first argument is the name of a subcommand.
+bool names_subcommand(std::span<const char* const> arguments, std::string_view name);
+
+/// What follows a subcommand's name. `Parser` holds an `app` that fills in a `command`; `finish` is called with that.
+template <typename Parser, typename Finish>
+auto parse_subcommand(std::span<const char* const> arguments, const Finish& finish)
+    -> std::variant<decltype(Parser::command), Ending> {
+  Parser parser;
+  if (auto ending = parse_with(parser.app, arguments.subspan(1), [&] { finish(parser.command); })) {
+    return std::move(*ending);
+  }
+  return std::move(parser.command);
+}
 
 }  // namespace gltf_radiosity::tools

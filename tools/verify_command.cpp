@@ -119,17 +119,10 @@ void finish_verify(VerifyCommand& command) {
 
 }  // namespace
 
-bool is_verify_command(std::span<const char* const> arguments) {
-  return arguments.size() > 1 && std::string_view(arguments[1]) == "verify";
-}
+bool is_verify_command(std::span<const char* const> arguments) { return names_subcommand(arguments, "verify"); }
 
 std::variant<VerifyCommand, Ending> parse_verify_command(std::span<const char* const> arguments) {
-  VerifyParser parser;
-  const auto after_verify = arguments.subspan(1);
-  if (auto ending = parse_with(parser.app, after_verify, [&parser] { finish_verify(parser.command); })) {
-    return std::move(*ending);
-  }
-  return std::move(parser.command);
+  return parse_subcommand<VerifyParser>(arguments, finish_verify);
 }
 
 std::string verify_help_text() { return VerifyParser().app.help(); }

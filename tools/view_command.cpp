@@ -42,17 +42,10 @@ void finish_view(const ViewCommand& command) {
 
 }  // namespace
 
-bool is_view_command(std::span<const char* const> arguments) {
-  return arguments.size() > 1 && std::string_view(arguments[1]) == "view";
-}
+bool is_view_command(std::span<const char* const> arguments) { return names_subcommand(arguments, "view"); }
 
 std::variant<ViewCommand, Ending> parse_view_command(std::span<const char* const> arguments) {
-  ViewParser parser;
-  const auto after_view = arguments.subspan(1);
-  if (auto ending = parse_with(parser.app, after_view, [&parser] { finish_view(parser.command); })) {
-    return std::move(*ending);
-  }
-  return std::move(parser.command);
+  return parse_subcommand<ViewParser>(arguments, finish_view);
 }
 
 std::string view_help_text() { return ViewParser().app.help(); }

@@ -99,9 +99,8 @@ bool CutMesh::split_seam(const glm::uvec2& end_classes, std::uint32_t middle_cla
 }
 
 std::array<std::uint32_t, 2> CutMesh::halve(std::uint32_t edge, const std::array<std::uint32_t, 2>& midpoint_of_side) {
-  const glm::uvec2 ends = bridge.end_classes(edge);
-  const glm::vec3 middle = midpoint(welder.positions()[ends.x], welder.positions()[ends.y]);
-  return bridge.cut(edge, 0.5F, welder.class_of(middle), middle, midpoint_of_side);
+  const std::uint32_t middle = class_between(bridge.end_classes(edge), 0.5F);
+  return bridge.cut(edge, 0.5F, middle, welder.positions()[middle], midpoint_of_side);
 }
 
 }  // namespace radiosity
