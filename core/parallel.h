@@ -4,6 +4,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -22,17 +23,22 @@ auto on_threads(int threads, const Work& work) -> decltype(work()) {
   return work();
 }
 
-/// Calls `work(k)` once for every k in [first, last), concurrently. Each call must write only what belongs to its k:
-/// then the result does not depend on the number of threads.
+/// Calls `work(k)` once for every k in [first, last), concurrently, with the calling thread's ways of rounding and of
+/// treating denormal numbers. Each call must write only what belongs to its k: then the result does not depend on the
+/// number of threads.
 template <typename Work>
 void in_parallel(std::size_t first, std::size_t last, const Work& work) {
   ThreadOrder before, after;
   before.give();
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(first, last), [&](const auto& range) {
+  // Without a context of its own a loop rounds as oneTBB was first called, which may have been within a library.
+  tbb::task_group_context context(tbb::task_group_context::bound,
+                                  tbb::task_group_context::default_traits | tbb::task_group_context::fp_settings);
+  const auto body = [&](const tbb::blocked_range<std::size_t>& range) {
     before.take();
     for (std::size_t k = range.begin(); k != range.end(); ++k) work(k);
     after.give();
-  });
+  };
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(first, last), body, context);
   after.take();
 }
 

@@ -1,6 +1,7 @@
 #include "core/visibility/ray_scene.h"
 
 #include <algorithm>
+#include <cfenv>
 #include <cstddef>
 #include <new>
 
@@ -72,6 +73,15 @@ void attach_triangles(RayScene::Impl& inside, RTCBuffer positions, RayScene::Imp
   rtcAttachGeometryByID(inside.embree.get(), geometry.get(), id);
 }
 
+/// Embree builds with denormal numbers flushed to zero and leaves its caller so: the normals of the tiniest triangles
+/// would be infinite from here on.
+void build_tree(RTCScene scene) {
+  std::fenv_t environment;
+  std::fegetenv(&environment);
+  rtcCommitScene(scene);
+  std::fesetenv(&environment);
+}
+
 }  // namespace
 
 RayScene::Impl::Impl(const Scene& world) : scene(world), device(rtcNewDevice(nullptr)) {
@@ -96,7 +106,7 @@ RayScene::Impl::Impl(const Scene& world) : scene(world), device(rtcNewDevice(nul
 
   // Build the tree. It comes out the same however many threads build it: with every triangle of a scene of 375 k
   // doubled, 1 to 16 threads gave the same one of the two at each of 6.4 M hits.
-  rtcCommitScene(embree.get());
+  build_tree(embree.get());
   throw_on_error(device.get());
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <glm/geometric.hpp>
 #include <map>
 #include <numeric>
@@ -14,11 +13,14 @@
 
 #include "core/mesh/t_vertices.h"
 #include "core/photometry.h"
+#include "tests/core/same_bytes.h"
 #include "tests/core/test_scenes.h"
 #include "tests/core/test_skies.h"
 
 namespace radiosity {
 namespace {
+
+using test::same_bytes;
 
 /// Small and quick: some hundred patches, hemicubes of 16 cells.
 BakeOptions quick(float patch_size) {
@@ -56,10 +58,6 @@ Difference difference(const Bake& a, const Bake& b) {
     largest = std::max(largest, std::abs(apart));
   }
   return {std::sqrt(square / area) / (mean / area), largest / (mean / area)};
-}
-
-bool same_bytes(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Rgb)) == 0;
 }
 
 /// The largest relative error of the displayed luminance in a closed room that emits 1 cd/m2 everywhere.

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <glm/geometric.hpp>
 #include <vector>
 
 #include "core/bake.h"
+#include "tests/core/same_bytes.h"
 #include "tests/core/test_scenes.h"
 
 namespace radiosity::test {
@@ -47,10 +47,6 @@ inline double rms_difference(const std::vector<Rgb>& a, const std::vector<Rgb>& 
   }
   const auto count = static_cast<double>(a.size());
   return std::sqrt(square / count) / (sum / count);
-}
-
-inline bool same_bytes(const std::vector<Rgb>& a, const std::vector<Rgb>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Rgb)) == 0;
 }
 
 }  // namespace radiosity::test

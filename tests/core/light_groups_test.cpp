@@ -14,10 +14,10 @@ namespace radiosity {
 namespace {
 
 using test::four_lights;
+using test::quick_groups;
 using test::rms_difference;
 using test::same_bytes;
 
-constexpr auto quick = test::quick_groups;
 using enum test::Group;
 
 /// The largest difference between the whole and the sum of its parts in any band at any vertex, relative to that.
@@ -54,7 +54,7 @@ TEST(LightGroups, AddUpToTheWholeAtEveryVertexOfEveryMesh) {
   const Scene scene = four_lights();
   for (const Refine refine : {Refine::kNone, Refine::kUniform, Refine::kAdaptive}) {
     for (const Fit fit : {Fit::kLeastSquares, Fit::kInterpolate}) {
-      BakeOptions options = quick();
+      BakeOptions options = quick_groups();
       options.refine = refine;
       options.fit = fit;
       options.adapt = {.max_error = 0.1, .max_vertices = 800};
@@ -68,7 +68,7 @@ TEST(LightGroups, AddUpToTheWholeAtEveryVertexOfEveryMesh) {
 TEST(LightGroups, AddUpToTheDirectAndToTheIndirectLight) {
   const Scene scene = four_lights();
   for (const LightParts parts : {LightParts::kDirect, LightParts::kIndirect}) {
-    BakeOptions options = quick();
+    BakeOptions options = quick_groups();
     options.parts = parts;
     EXPECT_LT(largest_gap(scene, bake(scene, options, {})), 1e-5) << static_cast<int>(parts);
   }
@@ -79,7 +79,7 @@ TEST(LightGroups, ChangeNothingAboutTheWhole) {
   scene.sky = test::sky_of(64, [](const glm::vec3& d) { return d.y > 0.0F ? Rgb(0.1F, 0.2F, 0.3F) : Rgb(0.05F); });
   test::add_sun(scene.sky, glm::normalize(glm::vec3(0.1F, 0.4F, -1.0F)), {5, 5, 4});
   scene.sky.light_group = kSky;
-  BakeOptions options = quick();
+  BakeOptions options = quick_groups();
   options.refine = Refine::kAdaptive;
   options.adapt = {.max_error = 0.05, .max_vertices = 800};
   const Bake with = bake(scene, options, {});
@@ -92,9 +92,9 @@ TEST(LightGroups, ChangeNothingAboutTheWhole) {
 
 TEST(LightGroups, AreWhatTheirLightsAloneBring) {
   const Scene scene = four_lights();
-  const Bake together = bake(scene, quick(), {});
+  const Bake together = bake(scene, quick_groups(), {});
   for (std::uint32_t group = 0; group < kGroupCount; ++group) {
-    BakeOptions options = quick();
+    BakeOptions options = quick_groups();
     options.light_groups = false;
     const Bake single = bake(alone(scene, group), options, {});
     // But for where fits were cut off at zero, and what was still unshot.
@@ -104,7 +104,7 @@ TEST(LightGroups, AreWhatTheirLightsAloneBring) {
 
 TEST(LightGroups, DoNotDependOnHowBrightTheOthersAre) {
   Scene scene = four_lights();
-  BakeOptions options = quick();
+  BakeOptions options = quick_groups();
   options.residual = 1e-6F;
   const Bake before = bake(scene, options, {});
   scene.surfaces[3].emission *= Rgb(0.01F, 0.2F, 3.0F);
@@ -119,18 +119,18 @@ TEST(LightGroups, DoNotDependOnHowBrightTheOthersAre) {
 
 TEST(LightGroups, OfLightsThatAreDimmedToNothingHaveALightOfTheirOwn) {
   Scene scene = four_lights();
-  const Bake lit = bake(scene, quick(), {});
+  const Bake lit = bake(scene, quick_groups(), {});
   scene.dimmers.assign(kGroupCount, Rgb(1.0F));
   scene.dimmers[kBulb] = Rgb(0.0F);
   scene.dimmers[kLamp] = {1.0F, 0.0F, 2.0F};
-  const Bake dimmed = bake(scene, quick(), {});
+  const Bake dimmed = bake(scene, quick_groups(), {});
   EXPECT_LT(largest_gap(scene, dimmed), 1e-5);
   EXPECT_LT(rms_difference(dimmed.group_irradiance[kBulb], lit.group_irradiance[kBulb]), 0.002);
   EXPECT_LT(rms_difference(dimmed.group_irradiance[kLamp], lit.group_irradiance[kLamp]), 0.002);
 }
 
 TEST(LightGroups, AreTheSameBytesForAnyNumberOfThreads) {
-  BakeOptions options = quick();
+  BakeOptions options = quick_groups();
   options.threads = 1;
   const Bake one = bake(four_lights(), options, {});
   options.threads = 3;
@@ -141,7 +141,7 @@ TEST(LightGroups, AreTheSameBytesForAnyNumberOfThreads) {
 }
 
 TEST(LightGroups, AreOneUnlessToldApart) {
-  const Bake baked = bake(test::occluder(), quick(), {});
+  const Bake baked = bake(test::occluder(), quick_groups(), {});
   ASSERT_EQ(baked.group_irradiance.size(), 1U);
   EXPECT_TRUE(same_bytes(baked.group_irradiance[0], baked.irradiance));
 }
