@@ -73,6 +73,7 @@ class TreeChecker : private JsonChecker {
       for (std::size_t i = 0; i < elements.size() && !error_; ++i) {
         const std::string place = place_of(key, i);
         if (!elements[i].is_object()) return fail(place, "is not an object");
+        string_if_present(elements[i], "name", place);
         const Json* extensions = object_in(elements[i], "extensions", place);
         if (extensions == nullptr) continue;
         for (const auto& [name, value] : extensions->items()) {
@@ -105,6 +106,7 @@ class TreeChecker : private JsonChecker {
       const Json& image = root_["images"][i];
       index(image, "bufferView", "bufferViews", place);
       string_if_present(image, "uri", place);
+      string_if_present(image, "mimeType", place);
       if (!image.contains("uri") && !image.contains("bufferView")) fail(place, "has neither a uri nor a bufferView");
     }
     for (std::size_t i = 0; i < size("samplers") && !error_; ++i) {
@@ -198,6 +200,7 @@ class TreeChecker : private JsonChecker {
       if (type != "point" && type != "spot" && type != "directional") {
         fail(place, "\"type\" is none of point, spot and directional");
       }
+      string_if_present(lights[i], "name", place);
       numbers(lights[i], "color", 3, place);
       number_if_present(lights[i], "intensity", place);
       number_if_present(lights[i], "range", place);
@@ -238,7 +241,6 @@ class TreeChecker : private JsonChecker {
       const Json& node = root_["nodes"][i];
       index(node, "mesh", "meshes", place);
       index(node, "skin", "skins", place);
-      string_if_present(node, "name", place);
       numbers(node, "matrix", 16, place);
       numbers(node, "translation", 3, place);
       numbers(node, "rotation", 4, place);

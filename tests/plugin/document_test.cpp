@@ -120,6 +120,21 @@ TEST(Document, NamesThePlaceOfEveryFault) {
   EXPECT_EQ(verdict_after([](Json& json) { json["meshes"] = 3; }), "\"meshes\" is not an array");
 }
 
+TEST(Document, NamesThatAreNoTextAreRefused) {
+  for (const char* key : {"nodes", "meshes", "accessors"}) {
+    EXPECT_EQ(verdict_after([&](Json& json) { json[key][0]["name"] = 3; }),
+              std::string(key) + "[0]: \"name\" is not a string");
+  }
+  EXPECT_EQ(verdict_after([](Json& json) {
+              json["materials"] = {{{"name", Json::object()}}};
+            }),
+            "materials[0]: \"name\" is not a string");
+  EXPECT_EQ(verdict_after([](Json& json) {
+              json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"name", 3}}};
+            }),
+            "extensions.KHR_lights_punctual.lights[0]: \"name\" is not a string");
+}
+
 TEST(Document, SizesAreChecked64BitsWide) {
   for (const Json& huge : {Json(1e300), Json(std::uint64_t{1} << 63), Json(0xffffffffffffffffU), Json(-1)}) {
     EXPECT_NE(verdict_after([&](Json& json) { json["accessors"][0]["count"] = huge; }), "fine") << huge;
