@@ -44,13 +44,6 @@ class Surveyor {
     return {from + height * normal, height, covered};
   }
 
-  bool sees(const Lookout& a, const Lookout& b) const {
-    std::uint8_t blocked = 0;
-    const ShadowRay ray = sight(a.lifted, b.lifted);
-    trace_shadow_rays(rays_, {&ray, 1}, {&blocked, 1});
-    return blocked == 0;
-  }
-
   /// Whether something stands on a tile: its corners and the middles of its edges are hidden from its middle.
   bool straddles(const Tile& tile, bool back, const Lookout& middle) const {
     const glm::vec3 lift = (offset_ + middle.height) * normal_of(tile, back);
@@ -72,22 +65,16 @@ class Surveyor {
     return longest_edge(rays_.scene(), tile.triangle, tile.part) >= kShortestCut * size_;
   }
 
-  /// The part that `lookout` belongs to; founds one if it sees none and there is room.
-  std::uint32_t join(const Lookout& lookout, std::vector<Lookout>& founders) const {
-    for (std::size_t part = 0; part < founders.size(); ++part) {
-      if (founders[part].covered == lookout.covered && sees(founders[part], lookout))
-        return static_cast<std::uint32_t>(part);
+  /// Which of `others` see `founder` and are covered as it is.
+  std::vector<std::uint8_t> company(const Lookout& founder, std::span<const Lookout> others) const {
+    std::vector<ShadowRay> rays(others.size());
+    for (std::size_t k = 0; k < rays.size(); ++k) rays[k] = sight(founder.lifted, others[k].lifted);
+    std::vector<std::uint8_t> blocked(rays.size(), 0), belongs(rays.size(), 0);
+    trace_shadow_rays(rays_, rays, blocked);
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+      belongs[k] = blocked[k] == 0 && others[k].covered == founder.covered ? 1 : 0;
     }
-    if (founders.size() < kMaxParts) {
-      founders.push_back(lookout);
-      return static_cast<std::uint32_t>(founders.size() - 1);
-    }
-    const auto order = [&](const Lookout& founder) {
-      return std::pair(founder.covered != lookout.covered, glm::distance(founder.lifted, lookout.lifted));
-    };
-    const auto nearest = std::min_element(founders.begin(), founders.end(),
-                                          [&](const Lookout& a, const Lookout& b) { return order(a) < order(b); });
-    return static_cast<std::uint32_t>(nearest - founders.begin());
+    return belongs;
   }
 
  private:
@@ -104,6 +91,42 @@ class Surveyor {
   const RayScene& rays_;
   float size_, offset_;
 };
+
+/// The founder for a lookout that sees none: covered alike before near.
+std::uint32_t nearest_founder(const Lookout& lookout, std::span<const Lookout> founders) {
+  const auto order = [&](const Lookout& founder) {
+    return std::pair(founder.covered != lookout.covered, glm::distance(founder.lifted, lookout.lifted));
+  };
+  const auto nearest = std::min_element(founders.begin(), founders.end(),
+                                        [&](const Lookout& a, const Lookout& b) { return order(a) < order(b); });
+  return static_cast<std::uint32_t>(nearest - founders.begin());
+}
+
+/// The part of each lookout of one group, and how many parts there are: the first lookout founds a part, to which all
+/// belong that see it; the first of those that are left founds the next one.
+std::uint32_t part_lookouts(const Surveyor& surveyor, std::span<const Lookout> lookouts,
+                            std::span<std::uint32_t> part) {
+  std::vector<std::uint32_t> left(lookouts.size());
+  std::iota(left.begin(), left.end(), 0U);
+  std::vector<Lookout> founders, others;
+  while (!left.empty() && founders.size() < kMaxParts) {
+    const Lookout& founder = founders.emplace_back(lookouts[left.front()]);
+    others.clear();
+    for (const std::uint32_t k : left) others.push_back(lookouts[k]);
+    const std::vector<std::uint8_t> belongs = surveyor.company(founder, others);
+    std::vector<std::uint32_t> still_left;
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      if (k == 0 || belongs[k] != 0) {
+        part[left[k]] = static_cast<std::uint32_t>(founders.size() - 1);
+      } else {
+        still_left.push_back(left[k]);
+      }
+    }
+    left = std::move(still_left);
+  }
+  for (const std::uint32_t k : left) part[k] = nearest_founder(lookouts[k], founders);
+  return static_cast<std::uint32_t>(founders.size());
+}
 
 /// Sides sorted by group, and where each group starts, [count + 1].
 struct Sorted {
@@ -176,9 +199,11 @@ Parts split_groups(const RayScene& rays, const Groups& groups, const Progress& p
       const glm::vec3 &p = groups.sides[a].lookout.lifted, &q = groups.sides[b].lookout.lifted;
       return std::tie(p.x, p.y, p.z, a) < std::tie(q.x, q.y, q.z, b);
     });
-    std::vector<Lookout> founders;
-    for (const std::uint32_t s : members) parts.part_of_side[s] = surveyor.join(groups.sides[s].lookout, founders);
-    part_count[group] = static_cast<std::uint32_t>(founders.size());
+    std::vector<Lookout> lookouts;
+    for (const std::uint32_t s : members) lookouts.push_back(groups.sides[s].lookout);
+    std::vector<std::uint32_t> part(members.size());
+    part_count[group] = part_lookouts(surveyor, lookouts, part);
+    for (std::size_t k = 0; k < members.size(); ++k) parts.part_of_side[members[k]] = part[k];
   });
 
   // Numbers within groups become numbers of all.
