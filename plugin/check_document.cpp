@@ -215,6 +215,7 @@ class TreeChecker : private JsonChecker {
     for (std::size_t i = 0; i < size("skins") && !error_; ++i) {
       const std::string place = place_of("skins", i);
       const Json& joints = array_in(root_["skins"][i], "joints", place);
+      if (joints.empty()) return fail(place, "has no joints");
       check_indices(joints, "joints", "nodes", place);
       const auto matrices = index(root_["skins"][i], "inverseBindMatrices", "accessors", place);
       if (!matrices) continue;

@@ -145,14 +145,21 @@ TEST(Document, SizesAreChecked64BitsWide) {
   }
 }
 
-TEST(Document, ReplacingAnyValueNeverCrashes) {
-  // Every value of the tree in turn becomes something else: the answer is a document or an error, never a crash.
+TEST(Document, ReplacingOrRemovingAnyValueNeverCrashes) {
+  // Every value of the tree in turn becomes something else, or nothing: the answer is a document or an error, never a
+  // crash.
   GltfBuilder builder = square();
   const std::size_t texture = builder.add_texture(1, 1, {255, 255, 255, 255});
   builder.add_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", texture}}}}}});
   builder.add_light({{"type", "spot"}, {"spot", {{"innerConeAngle", 0.1}}}});
+  builder.json["skins"] = Json::parse(R"([{"joints": [0]}])");
   const Json sound = Json::parse(builder.embedded());
   std::size_t fine = 0, refused = 0;
+  const auto try_out = [&](const Json& changed, const std::string& change) {
+    const auto document = read(changed.dump());
+    ++(document ? fine : refused);
+    EXPECT_TRUE(!document || typed_view(*document)) << change;
+  };
   const Json flat = sound.flatten();
   for (const auto& [pointer, value] : flat.items()) {
     for (const Json& other :
@@ -160,10 +167,14 @@ TEST(Document, ReplacingAnyValueNeverCrashes) {
       for (auto at = Json::json_pointer(pointer); !at.empty(); at.pop_back()) {
         Json changed = sound;
         changed[at] = other;
-        const auto document = read(changed.dump());
-        ++(document ? fine : refused);
-        EXPECT_TRUE(!document || typed_view(*document)) << pointer << " " << other;
+        try_out(changed, at.to_string() + " " + other.dump());
       }
+    }
+    for (auto at = Json::json_pointer(pointer); !at.empty(); at.pop_back()) {
+      Json changed = sound;
+      Json& parent = changed[at.parent_pointer()];
+      parent.is_array() ? parent.erase(std::stoul(at.back())) : static_cast<void>(parent.erase(at.back()));
+      try_out(changed, at.to_string() + " removed");
     }
   }
   EXPECT_GT(fine, 0U);
