@@ -8,11 +8,18 @@
 namespace radiosity {
 namespace {
 
-/// Dense sums of one row; reused by each thread, cleared after use through the list of patches touched.
+/// Dense sums of one row; reused by each thread.
 struct Accumulator {
   std::vector<float> factor;
   std::vector<std::uint32_t> touched;
   ItemBuffer items;
+
+  /// Forgets the row before, which may have run out of memory on the way.
+  void begin(std::size_t patch_count) {
+    for (const std::uint32_t j : touched) factor[j] = 0.0F;
+    touched.clear();
+    factor.resize(patch_count, 0.0F);
+  }
 };
 
 class HemicubeRows final : public RowSource {
@@ -25,7 +32,7 @@ class HemicubeRows final : public RowSource {
 
   FormFactorRow row(std::uint32_t patch) const override {
     thread_local Accumulator sums;
-    sums.factor.resize(patch_count(), 0.0F);
+    sums.begin(patch_count());
 
     // One hemicube at each point of the patch, each with a twist of its own.
     FormFactorRow row;
@@ -43,11 +50,7 @@ class HemicubeRows final : public RowSource {
     std::sort(sums.touched.begin(), sums.touched.end());
     row.patch = sums.touched;
     row.factor.reserve(sums.touched.size());
-    for (const std::uint32_t j : sums.touched) {
-      row.factor.push_back(sums.factor[j]);
-      sums.factor[j] = 0.0F;
-    }
-    sums.touched.clear();
+    for (const std::uint32_t j : sums.touched) row.factor.push_back(sums.factor[j]);
     return row;
   }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
+#include <new>
 #include <numeric>
 #include <utility>
 
@@ -164,6 +165,32 @@ struct NumberedRows final : RowSource {
     return {{patch, patch + 1}, {0.25F, 0.5F}, static_cast<float>(patch) / 100.0F, 0.0F};
   }
 };
+
+/// Fills item buffers as another maker does, but not the one of call `failing`.
+class FailingMaker final : public ItemBufferMaker {
+ public:
+  FailingMaker(const ItemBufferMaker& maker, int failing) : maker_(maker), calls_left_(failing) {}
+  void fill(const Hemicube& hemicube, const Viewpoint& viewpoint, ItemBuffer& items) const override {
+    if (--calls_left_ == 0) throw std::bad_alloc();
+    maker_.fill(hemicube, viewpoint, items);
+  }
+
+ private:
+  const ItemBufferMaker& maker_;
+  mutable int calls_left_;
+};
+
+TEST(FormFactors, ARowThatRunsOutOfMemoryLeavesNothingToTheNextOne) {
+  const PreparedScene s(test::white_furnace(0.5F, 1.0F));
+  std::uint32_t patch = 0;
+  while (s.patches.points_of(patch).size() < 2) ++patch;
+  const FailingMaker failing(*s.items, 2);
+  const auto rows = make_hemicube_rows(s.patches, s.hemicube, failing, s.sky, surface_offset(s.scene));
+  EXPECT_THROW(rows->row(patch), std::bad_alloc);
+  const FormFactorRow row = rows->row(patch), sound = s.rows->row(patch);
+  EXPECT_EQ(row.patch, sound.patch);
+  EXPECT_EQ(row.factor, sound.factor);
+}
 
 TEST(RowCache, ComputesEachRowOnceWhileThereIsRoom) {
   const NumberedRows source;
