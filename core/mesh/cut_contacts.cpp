@@ -21,11 +21,19 @@ constexpr double kOnLine = 8.0;
 /// An element is cut through if the contact covers this share of its way through it; an edge is a seam from half.
 constexpr double kCutThrough = 0.3, kSeam = 0.5;
 
+/// A contact that covers less of its way through an element does not touch it.
+constexpr double kTouches = 1e-6;
+
 /// Where the mesh is refined a cut takes the place of a bisection only from here on.
 constexpr double kParted = 0.6;
 
 /// Light jumps where a surface goes on, not where it turns: there a crease keeps it apart.
 constexpr double kGoesOnCos = 0.9659258;  // 15 degrees
+
+double least_height(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+  return longest > 0.0 ? glm::length(glm::cross(b - a, c - a)) / longest : 0.0;
+}
 
 }  // namespace
 
@@ -73,7 +81,8 @@ glm::dvec3 ContactCutter::place_of(std::uint32_t position_class) const {
   return cut_.welder.positions()[position_class];
 }
 
-/// Whether a cut at `place` of an edge is clear of all corners there: it would leave parts without area.
+/// Whether a cut at `place` of an edge leaves no part as thin as what counts as one line. A line that cannot leave
+/// an element there is crossed by the cuts along others, those are cut along it, and so on towards the edge.
 bool ContactCutter::is_clear(std::span<const std::uint32_t> copies, const glm::dvec3& place) const {
   for (const std::uint32_t copy : copies) {
     for (unsigned int side = 0; side < 2; ++side) {
@@ -81,23 +90,24 @@ bool ContactCutter::is_clear(std::span<const std::uint32_t> copies, const glm::d
       if (element == kNothing) continue;
       for (const std::uint32_t edge : cut_.bridge.edges_of(element)) {
         const glm::uvec2 ends = cut_.bridge.end_classes(edge);
-        if (glm::distance(place_of(ends.x), place) <= tolerance_ ||
-            glm::distance(place_of(ends.y), place) <= tolerance_)
-          return false;
+        if (edge != copy && least_height(place, place_of(ends.x), place_of(ends.y)) <= tolerance_) return false;
       }
     }
   }
   return true;
 }
 
-/// An edge of an element that the line of a contact crosses, and where.
-std::optional<ContactCutter::Crossing> ContactCutter::crossing_of(const Line& line, std::uint32_t element) const {
-  std::optional<Crossing> crossing;
+/// An edge of an element that the line of a contact crosses, and where, if the contact covers so much of its way.
+std::optional<ContactCutter::Crossing> ContactCutter::crossing_of(const Line& line, std::uint32_t element,
+                                                                  double least_covered) const {
   double first = std::numeric_limits<double>::infinity(), last = -first;
   const auto passes = [&](const glm::dvec3& at) {
     first = std::min(first, line.place(at));
     last = std::max(last, line.place(at));
   };
+  std::array<Crossing, 2> crossings{};
+  std::array<glm::dvec3, 2> place{};
+  std::size_t count = 0;
   for (const std::uint32_t edge : cut_.bridge.edges_of(element)) {
     const glm::uvec2 classes = cut_.bridge.end_classes(edge);
     const glm::dvec3 a = place_of(classes.x), b = place_of(classes.y);
@@ -106,12 +116,18 @@ std::optional<ContactCutter::Crossing> ContactCutter::crossing_of(const Line& li
     if (side_b == 0) passes(b);
     if (side_a * side_b >= 0) continue;
     const double at = line.beside(a) / (line.beside(a) - line.beside(b));
-    const glm::dvec3 place = a + at * (b - a);
-    passes(place);
-    if (!crossing && is_clear(edges_.copies_of(edge), place)) crossing = {edge, static_cast<float>(at)};
+    place[count] = a + at * (b - a);
+    passes(place[count]);
+    crossings[count++] = {edge, static_cast<float>(at), 0.0};
   }
-  if (crossing) crossing->covered = line.covered(first, last);
-  return crossing;
+  const double covered = line.covered(first, last);
+  if (covered < least_covered) return std::nullopt;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!is_clear(edges_.copies_of(crossings[k].edge), place[k])) continue;
+    crossings[k].covered = covered;
+    return crossings[k];
+  }
+  return std::nullopt;
 }
 
 bool ContactCutter::is_parted(std::uint32_t element) const {
@@ -119,8 +135,8 @@ bool ContactCutter::is_parted(std::uint32_t element) const {
   if (found == lines_on_.end()) return false;
   int lines = 0;
   for (const Line& line : found->second) {
-    const std::optional<Crossing> crossing = crossing_of(line, element);
-    if (!crossing || !(crossing->covered > 0.0)) continue;
+    const std::optional<Crossing> crossing = crossing_of(line, element, kTouches);
+    if (!crossing) continue;
     if (++lines > 1 || crossing->covered < kParted) return false;
   }
   return lines == 1;
@@ -156,9 +172,8 @@ std::vector<EdgeCopies::Part> ContactCutter::cut(std::uint32_t element, const Me
     const std::uint32_t piece = waiting.back();
     std::optional<Crossing> crossing;
     for (const Line& line : found->second) {
-      crossing = crossing_of(line, piece);
-      if (crossing && crossing->covered >= kCutThrough) break;
-      crossing.reset();
+      crossing = crossing_of(line, piece, kCutThrough);
+      if (crossing) break;
     }
     if (!crossing) {
       mark_seams(piece, found->second);

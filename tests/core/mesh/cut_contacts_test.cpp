@@ -113,6 +113,28 @@ TEST(CutContacts, EndWhereCutsLeaveSmallerAndSmallerPieces) {
   EXPECT_LT(cut.mesh.elements.size(), 2 * before);
 }
 
+TEST(CutContacts, EndWhereALineCannotLeaveThroughAnEdge) {
+  // The first line leaves triangle 0 where the corner of triangle 1 is too near for a cut; the others cross what it
+  // leaves behind. As one of an arcade's columns had it.
+  const glm::vec3 a(-0.024F, 0.139F, 0), b(-0.024F, -0.388F, 0), c(0.077F, -0.648F, 0);
+  Scene scene;
+  scene.positions = {a, b, c, {}};
+  scene.normals.assign(4, {0, 0, 1});
+  scene.triangles = {{0, 1, 2}, {0, 2, 3}};
+  scene.surfaces = {{}};
+  scene.surface_of_triangle = {0, 0};
+  const glm::vec3 leaves = glm::mix(a, c, 0.024F / 0.101F), beside = glm::normalize(glm::vec3(0.787F, 0.101F, 0));
+  scene.positions[3] = leaves + 3.0F * surface_offset(scene) * beside;
+
+  std::vector<Contact> contacts{{0, {0.0, 0.066, 0.0}, {0.0, -2.8, 0.0}, true}};
+  for (const double y : {-0.388, 0.071, -0.429}) contacts.push_back({0, {-0.03, y, 0.0}, {0.3, y, 0.0}, true});
+  CutMesh cut(scene);
+  EdgeCopies edges(cut);
+  ContactCutter(cut, edges, scene, contacts).cut_all({.max_elements = 10'000});
+  EXPECT_GT(cut.mesh.elements.size(), 4U);
+  EXPECT_LT(cut.mesh.elements.size(), 100U);
+}
+
 TEST(CutContacts, StayWithinTheVerticesAllowed) {
   for (const std::size_t most : {10U, 20U, 40U}) {
     Scene scene = test::floor_only();
