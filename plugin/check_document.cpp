@@ -45,6 +45,7 @@ class TreeChecker : private JsonChecker {
     check_materials();
     check_lights();
     check_skins();
+    check_animations();
     check_nodes();
     check_forest();
     check_scenes();
@@ -222,6 +223,17 @@ class TreeChecker : private JsonChecker {
       const Json& accessor = root_["accessors"][*matrices];
       if (accessor["type"] != "MAT4" || number(accessor, "count", std::nullopt, place) < joints.size()) {
         fail(place, "inverseBindMatrices are not one MAT4 for each joint");
+      }
+    }
+  }
+
+  void check_animations() {
+    for (std::size_t i = 0; i < size("animations") && !error_; ++i) {
+      const std::string place = place_of("animations", i);
+      for (const Json& sampler : array_in(root_["animations"][i], "samplers", place)) {
+        if (!sampler.is_object()) return fail(place, "a sampler is not an object");
+        index(sampler, "input", "accessors", place);
+        index(sampler, "output", "accessors", place);
       }
     }
   }

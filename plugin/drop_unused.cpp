@@ -121,15 +121,23 @@ void collect_unknown_numbers(const Json& value, std::vector<std::size_t>& number
 
 using VisitNumbers = std::function<void(Json&, const Visit&)>;
 
+/// Calls `act(json, number)` for every number below `count` that `visit_numbers` finds. Anything else refers to
+/// nothing: what a vendor's extension calls "source" may be a name.
+template <typename Act>
+void for_each_number(Json& root, std::size_t count, const VisitNumbers& visit_numbers, const Act& act) {
+  visit_numbers(root, [&](Json& json) {
+    if (const auto number = whole_number(json); number && *number < count) act(json, static_cast<std::size_t>(*number));
+  });
+}
+
 /// Which of `count` elements are needed: those that `visit_numbers` finds, and those that `unknown` numbers may mean.
 std::vector<std::uint8_t> used_elements(Json& root, std::size_t count, const std::vector<std::size_t>& unknown,
                                         const VisitNumbers& visit_numbers) {
   std::vector<std::uint8_t> used(count, 0);
-  const auto mark = [&used](std::size_t number) {
+  for (const std::size_t number : unknown) {
     if (number < used.size()) used[number] = 1;
-  };
-  for (const std::size_t number : unknown) mark(number);
-  visit_numbers(root, [&](Json& number) { mark(number.get<std::size_t>()); });
+  }
+  for_each_number(root, count, visit_numbers, [&](const Json&, std::size_t number) { used[number] = 1; });
   return used;
 }
 
@@ -143,7 +151,8 @@ void renumber(Json& root, const char* array, const std::vector<std::uint8_t>& st
     number_of[i] = kept.size();
     if (stays[i] != 0) kept.push_back(std::move(root[array][i]));
   }
-  visit_numbers(root, [&](Json& number) { number = number_of[number.get<std::size_t>()]; });
+  for_each_number(root, number_of.size(), visit_numbers,
+                  [&](Json& json, std::size_t number) { json = number_of[number]; });
   if (kept.empty()) {
     root.erase(array);
   } else {
@@ -242,7 +251,7 @@ void drop_images(Document& document, const std::vector<std::size_t>& candidates)
   if (candidates.empty() || !unknown.empty()) return;
   std::vector<std::uint8_t> stays(root["images"].size(), 1);
   for (const std::size_t candidate : candidates) stays[candidate] = 0;
-  visit_image_numbers(root, [&](Json& image) { stays[image.get<std::size_t>()] = 1; });
+  for_each_number(root, stays.size(), visit_image_numbers, [&](const Json&, std::size_t image) { stays[image] = 1; });
   std::vector<std::size_t> views;
   for (std::size_t i = 0; i < stays.size(); ++i) {
     const Json& image = root["images"][i];
@@ -254,7 +263,8 @@ void drop_images(Document& document, const std::vector<std::size_t>& candidates)
   if (views.empty()) return;
   std::vector<std::uint8_t> view_stays(root["bufferViews"].size(), 1);
   for (const std::size_t view : views) view_stays[view] = 0;
-  visit_view_numbers(root, [&](Json& view) { view_stays[view.get<std::size_t>()] = 1; });
+  for_each_number(root, view_stays.size(), visit_view_numbers,
+                  [&](const Json&, std::size_t view) { view_stays[view] = 1; });
   renumber(root, "bufferViews", view_stays, visit_view_numbers);
   compact_buffers(document);
 }

@@ -118,6 +118,14 @@ TEST(Document, NamesThePlaceOfEveryFault) {
   EXPECT_EQ(verdict_after([](Json& json) { json["extensionsRequired"] = {"VENDOR_magic"}; }),
             "extensionsRequired: VENDOR_magic is not supported");
   EXPECT_EQ(verdict_after([](Json& json) { json["meshes"] = 3; }), "\"meshes\" is not an array");
+  EXPECT_EQ(verdict_after([](Json& json) {
+              json["animations"] = {{{"samplers", {{{"input", 0}, {"output", {0}}}}}}};
+            }),
+            "animations[0]: \"output\" is not a whole number in range");
+  EXPECT_EQ(verdict_after([](Json& json) {
+              json["animations"] = {{{"samplers", {{{"input", 99}, {"output", 0}}}}}};
+            }),
+            "animations[0]: \"input\" refers to accessors[99], but there are 4");
 }
 
 TEST(Document, NamesThatAreNoTextAreRefused) {

@@ -79,6 +79,21 @@ TEST(DropUnused, OverlappingViewsStayWhereTheyAreToEachOther) {
   EXPECT_EQ(at(1) - at(0), 3U);
 }
 
+TEST(DropUnused, SourcesThatAreNoImagesReferToNothing) {
+  for (const Json& source : {Json("a name"), Json(99), Json(-1), Json::array({0})}) {
+    GltfBuilder builder = with_unused(0);
+    builder.add_texture(1, 1, {255, 255, 255, 255});
+    builder.add_texture(1, 1, {0, 0, 0, 255});
+    builder.json["textures"][0]["extensions"]["EXT_texture_by_others"]["source"] = source;
+    Document document = builder.document();
+    drop_images(document, {0, 1});
+    EXPECT_EQ(document.json["images"].size(), 2U) << source;
+    document.json["textures"].erase(1);
+    drop_images(document, {0, 1});
+    EXPECT_EQ(document.json["images"].size(), 1U) << source;
+  }
+}
+
 TEST(DropUnused, NumbersThatAnUnknownExtensionMayMeanStay) {
   GltfBuilder builder = with_unused(3);
   builder.json["meshes"][0]["extensions"]["EXAMPLE_tables"] = {{"columns", {{{"values", 1}}}}};
