@@ -17,7 +17,9 @@ const all_option_sets = [
 const option_sets = sanitized() ? all_option_sets.slice(1) : all_option_sets
 const scenes = fs.readdirSync(test_asset('')).filter((name) => /\.(glb|gltf)$/.test(name))
 // Under sanitizers the large Cornell boxes and rooms take minutes, and have nothing that the small ones have not.
-const too_slow = sanitized() ? ['cornell_box_5000.glb', 'cornell_box_1500.glb', 'two_rooms.glb'] : []
+const too_slow = sanitized()
+  ? ['cornell_box_5000.glb', 'cornell_box_1500.glb', 'two_rooms.glb', 'white_furnace_50.glb', 'white_furnace_90.glb']
+  : []
 
 test('the test scenes have been made', () => assert.ok(scenes.length >= 20, `${scenes.length} scenes`))
 
