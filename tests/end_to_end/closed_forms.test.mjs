@@ -29,7 +29,8 @@ function assert_near(actual, expected, tolerance, what) {
   assert.ok(Math.abs(actual - expected) <= tolerance, `${what}: ${actual}, not ${expected} +- ${tolerance}`)
 }
 
-for (const [percent, solver] of [50, 90].flatMap((rho) => [[rho, 'gathering'], [rho, 'progressive']])) {
+// Under sanitizers a furnace takes half a minute, and both go the same way.
+for (const [percent, solver] of (sanitized() ? [50] : [50, 90]).flatMap((rho) => [[rho, 'gathering'], [rho, 'progressive']])) {
   test(`a white furnace of 0.${percent} shows Le / (1 - rho) within 0.5 % at every vertex (${solver})`, () => {
     const { furnace } = vertices_of(`white_furnace_${percent}.glb`, '--solver', solver)
     for (const { position, color } of furnace) {
