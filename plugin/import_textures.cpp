@@ -165,6 +165,9 @@ bool is_sane(glm::vec2 uv) { return std::abs(uv.x) < kFarAway && std::abs(uv.y) 
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
+/// An edge that rises less than this covers nothing, and its slope may be no number.
+constexpr float kFlat = 1e-30F;
+
 /// How much of each cell of a small grid a polygon covers, exactly: every edge adds the signed area to its right, row
 /// by row, and a running sum over the row turns that into coverage.
 ///
@@ -179,9 +182,9 @@ class Coverage {
   }
 
   void add_edge(glm::vec2 a, glm::vec2 b) {
-    if (a.y == b.y) return;
     const float sign = a.y < b.y ? 1.0F : -1.0F;
     if (a.y > b.y) std::swap(a, b);
+    if (b.y - a.y < kFlat) return;
     const float slope = (b.x - a.x) / (b.y - a.y);
     const float least = std::min(a.x, b.x), most = std::max(a.x, b.x);
     const auto last = static_cast<int>(std::ceil(b.y));

@@ -188,6 +188,13 @@ TEST(Textures, WildCoordinatesAreHarmless) {
   EXPECT_TRUE(std::isfinite(slot.mean({{{0.5F, 0.5F}, {0.5F, 0.5F}, {0.5F, 0.5F}}}).x)) << "a triangle without area";
 }
 
+TEST(Textures, AnEdgeThatRisesByADenormalNumberCoversNothing) {
+  const TextureSlot slot = TextureFixture(16, 16, noise(16, 16, 5)).slot();
+  const float denormal = std::numeric_limits<float>::denorm_min();
+  EXPECT_NEAR(slot.mean({{{0.1F, 0}, {0.9F, 4.0F * denormal}, {0.5F, 1}}}).x,
+              slot.mean({{{0.1F, 0}, {0.9F, 0}, {0.5F, 1}}}).x, 1e-6F);
+}
+
 TEST(Textures, RandomTrianglesStayWithinTheTexels) {
   const TextureSlot slot = TextureFixture(37, 21, noise(37, 21, 9)).slot();
   std::mt19937 random(1);
