@@ -1,5 +1,6 @@
 // Runs in the page: draws a glTF as Babylon.js shows it, seen by the file's first camera.
 import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js'
+import { as_base64 } from './base64.mjs'
 
 // Decoders from this origin, in this thread. Babylon.js looks for meshoptimizer's among the globals.
 const draco = '/three/examples/jsm/libs/draco/gltf'
@@ -33,5 +34,5 @@ export async function pixels_of(url, { width, height }, code = '') {
     flipped.set(new Uint8Array(rows.buffer, rows.byteOffset + 4 * width * y, 4 * width), 4 * width * (height - 1 - y))
   }
   scene.dispose()
-  return [...flipped]
+  return as_base64(flipped)
 }

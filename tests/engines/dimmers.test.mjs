@@ -5,9 +5,9 @@ import path from 'node:path'
 import test from 'node:test'
 import { bake, sanitized, temporary_folder, test_asset } from '../end_to_end/command_line.mjs'
 import { read_compressed } from '../end_to_end/compressed_file.mjs'
-import { open_viewer, url_of } from './browser.mjs'
+import { open_viewer } from './browser.mjs'
 import { mixed } from './mixed.mjs'
-import { assert_pixels, probes } from './probes.mjs'
+import { assert_pixels, pixels_of, probes } from './probes.mjs'
 
 const folder = temporary_folder()
 const view = { width: 320, height: 240 }
@@ -29,8 +29,7 @@ function dimmable(storage, name, ...options) {
 }
 
 async function assert_dimmed(page, { output }, code, call, dimmers) {
-  const pixels = await page.evaluate(([url, size, text]) => window.viewer.pixels_of(url, size, text),
-    [url_of(output), view, `${code}\n${call}`])
+  const pixels = await pixels_of(page, output, view, `${code}\n${call}`)
   const found = probes(mixed(read_compressed(output), dimmers), view.width, view.height)
   return assert_pixels(pixels, found, { ...view, tolerance: 4, least_probes: 250 })
 }

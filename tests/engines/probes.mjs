@@ -1,6 +1,7 @@
 // What a page shows of a baked file, pixel by pixel, beside what its numbers say.
 import assert from 'node:assert/strict'
 import { read_compressed } from '../end_to_end/compressed_file.mjs'
+import { from_base64 } from './base64.mjs'
 import { url_of } from './browser.mjs'
 import { expected_colors } from './expected_colors.mjs'
 
@@ -22,9 +23,9 @@ export function probes(gltf, width, height) {
   return found
 }
 
-// RGBA bytes of the picture, rows from the top.
-export const pixels_of = (page, file, view) =>
-  page.evaluate(([url, size]) => window.viewer.pixels_of(url, size), [url_of(file), view])
+// RGBA bytes of the picture, rows from the top. `code` is run before (viewer.mjs).
+export const pixels_of = async (page, file, view, code = '') =>
+  from_base64(await page.evaluate((words) => window.viewer.pixels_of(...words), [url_of(file), view, code]))
 
 // The mean error in codes, once no probe is off by more than `tolerance`.
 export async function assert_shown(page, file, { width, height, tolerance, least_probes }) {

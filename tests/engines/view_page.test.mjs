@@ -5,6 +5,7 @@ import path from 'node:path'
 import test from 'node:test'
 import { bake, run, temporary_folder, test_asset } from '../end_to_end/command_line.mjs'
 import { read_compressed } from '../end_to_end/compressed_file.mjs'
+import { from_base64 } from './base64.mjs'
 import { open_browser } from './browser.mjs'
 import { mixed } from './mixed.mjs'
 import { assert_pixels, difference, probes } from './probes.mjs'
@@ -31,7 +32,7 @@ function page_of(file, ...options) {
 async function picture_of(page) {
   await page.evaluate(() => new Promise((drawn) => { requestAnimationFrame(() => requestAnimationFrame(drawn)) }))
   const png = await page.screenshot({ clip: { x: 0, y: 0, width, height } })
-  return page.evaluate(async (url) => {
+  return from_base64(await page.evaluate(async (url) => {
     const image = new Image()
     image.src = url
     await image.decode()
@@ -39,8 +40,13 @@ async function picture_of(page) {
     Object.assign(canvas, { width: image.width, height: image.height })
     const paper = canvas.getContext('2d')
     paper.drawImage(image, 0, 0)
-    return [...paper.getImageData(0, 0, image.width, image.height).data]
-  }, `data:image/png;base64,${png.toString('base64')}`)
+    const { data } = paper.getImageData(0, 0, image.width, image.height)
+    let text = ''
+    for (let row = 0; row < image.height; ++row) {
+      text += String.fromCharCode(...data.subarray(4 * row * image.width, 4 * (row + 1) * image.width))
+    }
+    return btoa(text)
+  }, `data:image/png;base64,${png.toString('base64')}`))
 }
 
 // Moves a slider or a colour as a person would: the page hears of it.

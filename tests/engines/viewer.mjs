@@ -3,6 +3,7 @@ import * as THREE from 'three'
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js'
 import { DRACOLoader } from 'three/addons/loaders/DRACOLoader.js'
 import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js'
+import { as_base64 } from './base64.mjs'
 
 const { renderer, canvas } = (() => {
   const canvas = document.createElement('canvas')
@@ -37,7 +38,7 @@ function draw(gltf, view, lights = []) {
   renderer.render(scene, camera_for(gltf, view))
 }
 
-// RGBA bytes of the picture, rows from the top, as a plain array. `code` is run before, with what was loaded as `gltf` and `scene`.
+// RGBA bytes of the picture, rows from the top, in base64. `code` is run before, with what was loaded as `gltf` and `scene`.
 export async function pixels_of(url, view, code = '') {
   const gltf = await load(url)
   new Function('gltf', 'scene', 'THREE', code)(gltf, gltf.scene, THREE)
@@ -50,7 +51,7 @@ export async function pixels_of(url, view, code = '') {
   for (let y = 0; y < height; ++y) {
     flipped.set(rows.subarray(4 * width * y, 4 * width * (y + 1)), 4 * width * (height - 1 - y))
   }
-  return [...flipped]
+  return as_base64(flipped)
 }
 
 // A lamp at the camera and a little light from everywhere: how a modeller shows a scene that has no light yet.
