@@ -103,7 +103,9 @@ std::size_t export_material(Document& document, const ImportedMaterial& material
 std::set<std::size_t> referenced_materials(const Json& root) {
   std::set<std::size_t> referenced;
   walk(root, "", [&](const std::string& key, const Json& value) {
-    if (value.is_number() && (key == "material" || key == "materials")) referenced.insert(value.get<std::size_t>());
+    // Extensions may mean anything by these words: what is no index refers to nothing.
+    const auto number = key == "material" || key == "materials" ? whole_number(value) : std::nullopt;
+    if (number) referenced.insert(*number);
     if (value.is_string()) {
       const std::string& text = value.get_ref<const std::string&>();
       std::size_t index = 0;
@@ -114,7 +116,7 @@ std::set<std::size_t> referenced_materials(const Json& root) {
     }
     if (key == "MSFT_lod" && value.is_object() && value.contains("ids")) {
       for (const Json& id : value["ids"]) {
-        if (id.is_number()) referenced.insert(id.get<std::size_t>());
+        if (const auto lod = whole_number(id)) referenced.insert(*lod);
       }
     }
   });

@@ -148,6 +148,12 @@ TEST(ExportMaterials, EveryKindOfReferenceIsFound) {
   EXPECT_THAT(referenced_materials(root), testing::ElementsAre(1, 2, 4, 5, 30));
 }
 
+TEST(ExportMaterials, AReferenceIsAnIndexWhateverExtensionsCallAMaterial) {
+  const Json root = Json::parse(R"({"extensions": {"EXAMPLE_shop": {"material": -1e38, "materials": [1.5, "oak"]},
+                                                   "MSFT_lod": {"ids": [-1, 3, 1e300]}}})");
+  EXPECT_THAT(referenced_materials(root), testing::ElementsAre(3));
+}
+
 TEST(ExportMaterials, ExtensionsThatNoMaterialHasAnyMoreAreForgotten) {
   Json root = Json::parse(R"({
     "extensionsUsed": ["KHR_materials_clearcoat", "KHR_materials_sheen", "KHR_materials_unlit", "KHR_lights_punctual",
