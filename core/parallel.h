@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
+#include <new>
 #include <string_view>
 
 #include "core/progress.h"
@@ -19,8 +21,15 @@ namespace radiosity {
 template <typename Work>
 auto on_threads(int threads, const Work& work) -> decltype(work()) {
   if (threads <= 0) return work();
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  return work();
+  auto limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                     static_cast<std::size_t>(threads));
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    // oneTBB may have run out of memory within a lock of its own, for which the end of `limit` would wait for ever.
+    static_cast<void>(limit.release());
+    throw;
+  }
 }
 
 /// Calls `work(k)` once for every k in [first, last), concurrently, with the calling thread's ways of rounding and of
