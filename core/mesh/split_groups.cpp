@@ -200,6 +200,7 @@ Parts split_groups(const RayScene& rays, const Groups& groups, const Progress& p
       return std::tie(p.x, p.y, p.z, a) < std::tie(q.x, q.y, q.z, b);
     });
     std::vector<Lookout> lookouts;
+    lookouts.reserve(members.size());
     for (const std::uint32_t s : members) lookouts.push_back(groups.sides[s].lookout);
     std::vector<std::uint32_t> part(members.size());
     part_count[group] = part_lookouts(surveyor, lookouts, part);
