@@ -16,6 +16,7 @@
 #include "plugin/export_materials.h"
 #include "plugin/export_meshes.h"
 #include "plugin/instancing.h"
+#include "plugin/json_checker.h"
 #include "plugin/our_extras.h"
 #include "plugin/output_style.h"
 #include "plugin/used_extensions.h"
@@ -27,8 +28,9 @@ using radiosity::Rgb;
 
 /// How often each mesh is referred to by a member "mesh", anywhere in the tree.
 void count_mesh_references(const Json& value, std::map<std::size_t, std::size_t>& counts) {
-  if (value.is_object() && value.contains("mesh") && value["mesh"].is_number())
-    ++counts[value["mesh"].get<std::size_t>()];
+  if (value.is_object() && value.contains("mesh")) {
+    if (const auto mesh = whole_number(value["mesh"])) ++counts[*mesh];
+  }
   if (!value.is_structured()) return;
   for (const Json& child : value) count_mesh_references(child, counts);
 }

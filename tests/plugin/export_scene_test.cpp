@@ -171,6 +171,15 @@ TEST(ExportScene, AMeshOfAnotherSceneStaysAsItIs) {
   EXPECT_TRUE(is_unlit(result.material_of(1)));
 }
 
+TEST(ExportScene, AMeshThatExtrasNameByNoIndexIsNoReference) {
+  GltfBuilder builder;
+  builder.add_node(builder.add_mesh(unit_square()));
+  builder.json["extras"] = {{"of", {{{"mesh", -2.0}}, {{"mesh", 0.5}}, {{"mesh", 1e300}}}}};
+  const Exported result = exported(builder);
+  EXPECT_EQ(result.after.json["meshes"].size(), 1U);
+  EXPECT_EQ(result.after.json["extras"]["of"], result.before.json["extras"]["of"]);
+}
+
 TEST(ExportScene, MaterialsOnlyBakedPrimitivesUseAreReplaced) {
   GltfBuilder builder;
   PrimitiveParts parts = unit_square();
