@@ -15,5 +15,5 @@ endif()
 # Excludes the others. core/thread_order.h tells it what oneTBB's library does not show.
 if(GLTF_RADIOSITY_SANITIZE_THREADS)
   add_compile_options(-fsanitize=thread)
-  add_link_options(-fsanitize=thread)
+  add_link_options(-fsanitize=thread -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/own_symbols.map)
 endif()

@@ -30,15 +30,18 @@ export function temporary_folder() {
 // { code, signal, stdout, stderr, lines (of stderr), seconds }
 export const run = (...args) => run_command(program(), args)
 
+// The same with more time than the five minutes that any other run may take.
+export const run_for = (seconds, ...args) => run_command(program(), args, seconds)
+
 // The same with so much memory of its own at most. Sanitizers need more than any limit worth testing.
 export function run_within(mebibytes, ...args) {
   if (sanitized()) return run(...args)
   return run_command('sh', ['-c', `ulimit -d ${1024 * mebibytes} && exec "$@"`, 'sh', program(), ...args])
 }
 
-function run_command(command, args) {
+function run_command(command, args, most_seconds = 300) {
   const start = process.hrtime.bigint()
-  const limits = { encoding: 'utf8', timeout: 300_000, maxBuffer: 1 << 28 }
+  const limits = { encoding: 'utf8', timeout: 1000 * most_seconds, maxBuffer: 1 << 28 }
   const { status, signal, stdout, stderr, error } = spawnSync(command, args.map(String), limits)
   if (error && error.code !== 'ETIMEDOUT') throw error
   const seconds = Number(process.hrtime.bigint() - start) / 1e9

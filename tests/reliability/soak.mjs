@@ -7,7 +7,7 @@ import assert from 'node:assert/strict'
 import fs from 'node:fs'
 import os from 'node:os'
 import path from 'node:path'
-import { cheapest, from_environment, run, temporary_folder, test_asset } from '../end_to_end/command_line.mjs'
+import { cheapest, from_environment, run, run_for, temporary_folder, test_asset } from '../end_to_end/command_line.mjs'
 import { read_gltf, to_glb } from '../end_to_end/gltf_file.mjs'
 
 const assets = from_environment('GLTF_RADIOSITY_ASSETS')
@@ -65,7 +65,7 @@ function batches() {
   const outputs = [1, os.cpus().length].map((threads) => {
     const out = path.join(folder, `batch_of_${threads}`)
     fs.mkdirSync(out)
-    const { code, signal } = run('--batch', assets, out, '--threads', threads, '--progress', 'none', ...options)
+    const { code, signal } = run_for(7200, '--batch', assets, out, '--threads', threads, '--progress', 'none', ...options)
     if (signal !== null || code === 70) problems.push(`batch with ${threads} threads: ${code ?? signal}`)
     return out
   })

@@ -23,4 +23,6 @@ void print_area(float radius) {
   std::cout << 3.14159F * radius * radius;       // forbidden
   std::printf("%f", std::numbers::pi * radius);  // forbidden
   exit(1);                                       // forbidden
+  std::atomic<int> count{0};                     // forbidden
+  std::atomic_ref(radius).store(1.0F);
 }
