@@ -91,6 +91,7 @@ BakeReport describe(const RefinedMesh& mesh, const Patches& patches, const Solut
   report.absorbed_flux = balance.absorbed;
   report.escaped_flux = balance.escaped;
   report.buried_element_count = static_cast<std::uint32_t>(std::count(samples.buried.begin(), samples.buried.end(), 1));
+  report.tile_count = patches.most_tiles;
   report.degenerate_triangle_count = patches.degenerate_triangle_count;
   report.reflectance_clamped_area = patches.reflectance_clamped_area;
   report.lamp_count = static_cast<std::uint32_t>(patches.lamps.size());
@@ -105,7 +106,7 @@ Bake bake_here(const Scene& scene, const BakeOptions& options, const Progress& p
   const RayScene rays(scene);
   DisplayMesh display = make_display_mesh(
       rays, {options.refine, options.subdivide, options.adapt.max_vertices, options.adapt.min_edge}, progress);
-  const Patches patches = make_patches(rays, {patch_limit(options, display.mesh()), 2}, progress);
+  const Patches patches = make_patches(rays, {patch_limit(options, display.mesh()), 2, options.max_tiles}, progress);
 
   // Visibility. A fit averages over many samples, so their hemicubes are half as wide.
   const bool raster = use_raster(scene, options);

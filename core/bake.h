@@ -9,6 +9,7 @@
 #include "core/light_groups.h"
 #include "core/light_transport.h"
 #include "core/mesh/display_mesh.h"
+#include "core/mesh/patches.h"
 #include "core/mesh/refined_mesh.h"
 #include "core/mesh/subdivide_uniform.h"
 #include "core/progress.h"
@@ -39,7 +40,8 @@ struct BakeOptions {
   LightParts parts = LightParts::kBoth;  ///< of the result; the parts add up to both, but for the noise of each fit
   float residual = 0.001F;               ///< stop when this share of the emitted flux is still unshot, (0,1)
   int max_patches = 0;  ///< patches that send light; more see finer indirect light; 0: see automatic_patches()
-  int lamp_rays = 32;   ///< shadow rays from a sample to all lamps together, where some are hidden
+  std::size_t max_tiles = PatchOptions{}.max_tiles;
+  int lamp_rays = 32;  ///< shadow rays from a sample to all lamps together, where some are hidden
   std::size_t row_cache_bytes = std::size_t{1} << 30;  ///< memory for rows of form factors: older ones are evicted
   int threads = 0;                                     ///< 0 uses every core; the result does not depend on it
   RowKeeper* row_keeper = nullptr;                     ///< not owned; rows of an earlier bake; null: there are none
@@ -54,6 +56,7 @@ int automatic_patches(std::size_t element_count, int hemicube_resolution);
 /// What was done, for reports. Fluxes are in lumen, all bands weighted to luminance.
 struct BakeReport {
   std::uint32_t patch_count = 0;
+  std::uint32_t tile_count = 0;  ///< at most while patches were made
   std::uint32_t element_count = 0;
   std::uint32_t vertex_count = 0;
   std::uint32_t steps = 0;                 ///< shots, or sweeps times patches when gathering

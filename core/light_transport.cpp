@@ -9,14 +9,14 @@ namespace {
 std::vector<Rgb> undyed_reflectances(const Scene& scene, const Patches& patches) {
   std::vector<glm::dvec3> sum(patches.patch_count(), glm::dvec3(0.0));
   std::vector<double> area(sum.size(), 0.0);
-  for (const Tile& tile : patches.tiling.leaves()) {
+  patches.tiling.for_each_leaf([&](const Tile& tile) {
     const glm::dvec3 undyed(undyed_reflectance(scene, tile.triangle, tile.part));
     for (const std::uint32_t patch : {patches.patch_of_tile[tile.tile], patches.back_patch_of_tile[tile.tile]}) {
       if (patch == kNothing || patch == patches.unreached) continue;
       sum[patch] += double{tile.area} * undyed;
       area[patch] += double{tile.area};
     }
-  }
+  });
   std::vector<Rgb> mean(sum.size(), Rgb(0.0F));
   for (std::size_t p = 0; p < mean.size(); ++p) {
     if (area[p] > 0.0) mean[p] = Rgb(sum[p] / area[p]);

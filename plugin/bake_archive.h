@@ -8,7 +8,7 @@
 namespace gltf_radiosity {
 
 /// Another BakeReport is another version.
-inline constexpr ArchiveKind kBakeArchive{"light", 1};
+inline constexpr ArchiveKind kBakeArchive{"light", 2};
 
 /// `bake` must stay where it is until the archive is written.
 void add_bake(ArchiveWriter& archive, const radiosity::Bake& bake);

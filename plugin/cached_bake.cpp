@@ -45,20 +45,26 @@ class CachedRows final : public radiosity::RowKeeper {
   bool found_ = false;
 };
 
+/// What memory allows of elements and of tiles.
+struct CountLimits {
+  std::uint64_t elements, tiles;
+};
+
 /// A mesh a quarter as large as both limits has met neither: no step of subdivision adds three times what there is.
-bool is_same_under_limit(std::size_t element_count, std::uint64_t limit_then, std::uint64_t limit_now) {
-  return limit_then == limit_now || element_count <= std::min(limit_then, limit_now) / 4;
+bool is_same_under_limit(std::size_t count, std::uint64_t limit_then, std::uint64_t limit_now) {
+  return limit_then == limit_now || count <= std::min(limit_then, limit_now) / 4;
 }
 
-/// The bake that an entry holds; empty if another limit on elements could have made it another.
+/// The bake that an entry holds; empty if other limits could have made it another.
 Result<std::optional<radiosity::Bake>> read_entry(const Archive& archive, const ImportedScene& scene,
-                                                  std::uint64_t max_elements) {
-  const Result<std::uint64_t> limit = archive.read_value<std::uint64_t>("max elements");
-  if (!limit) return limit.error();
+                                                  const CountLimits& now) {
+  const auto then = archive.read_value<CountLimits>("limits");
+  if (!then) return then.error();
   Result<radiosity::Bake> bake = read_bake(archive, scene.scene.positions.size(), scene.scene.triangles.size());
   if (!bake) return bake.error();
-  if (!is_same_under_limit(bake->mesh.elements.size(), *limit, max_elements)) return std::optional<radiosity::Bake>();
-  return std::optional(std::move(*bake));
+  const bool is_same = is_same_under_limit(bake->mesh.elements.size(), then->elements, now.elements) &&
+                       is_same_under_limit(bake->report.tile_count, then->tiles, now.tiles);
+  return is_same ? std::optional(std::move(*bake)) : std::nullopt;
 }
 
 }  // namespace
@@ -88,11 +94,11 @@ Result<CachedBake> bake_through_cache(const Document& document, const ImportedSc
   // A bake that was finished. The light of groups, and what follows from it, is not kept with it.
   const Result<std::string> key = bake_key(document, options, bake_options);
   if (!key) return key.error();
-  const std::uint64_t max_elements = bake_options.subdivide.max_elements;
+  const CountLimits limits{bake_options.subdivide.max_elements, bake_options.max_tiles};
   const bool whole = !bake_options.light_groups;
   if (whole) {
-    auto found = cache->load(kBakeArchive, *key,
-                             [&](const Archive& archive) { return read_entry(archive, scene, max_elements); });
+    auto found =
+        cache->load(kBakeArchive, *key, [&](const Archive& archive) { return read_entry(archive, scene, limits); });
     progress.update("cache", 1.0);
     if (found && *found) return CachedBake{std::move(**found), Spared::kBake};
   }
@@ -106,7 +112,7 @@ Result<CachedBake> bake_through_cache(const Document& document, const ImportedSc
 
   progress.update("cache", 0.0);
   ArchiveWriter archive(kBakeArchive);
-  archive.add_value("max elements", max_elements);
+  archive.add_value("limits", limits);
   add_bake(archive, result.bake);
   cache->store(kBakeArchive, *key, archive);
   progress.update("cache", 1.0);

@@ -62,11 +62,30 @@ radiosity::Visibility visibility_of(VisibilityMethod method) {
   return radiosity::Visibility::kAuto;
 }
 
-/// What an element costs at most: its place in the mesh, its samples and its share of the fit.
+/// What the program and its libraries take before they have read anything.
+constexpr std::uint64_t kProgramBytes = std::uint64_t{16} << 20U;
+
+/// What an element of a mesh that is refined costs at most: its place in the mesh, its samples and its share of the
+/// fit.
 constexpr std::uint64_t kBytesPerElement = 512;
+
+/// What a tile costs at most: itself, what is seen from its sides, and their patches.
+constexpr std::uint64_t kBytesPerTile = 192;
 
 std::uint64_t max_memory_of(const Options& options) {
   return options.max_memory > 0 ? options.max_memory : default_max_memory();
+}
+
+bool is_refined(const Options& options, const ImportedScene& scene) {
+  // A node's own level counts even where all others keep their triangles: the patch size is 0 then.
+  return options.refine != Refine::kNone ||
+         std::ranges::any_of(scene.level_of_triangle, [](std::int8_t level) { return level > 0; });
+}
+
+/// Sets memory aside for the mesh that refinement starts from.
+Result<Done> reserve_elements(const Options& options, const ImportedScene& scene, MemoryBudget& memory) {
+  if (!is_refined(options, scene)) return Done{};
+  return memory.reserve(scene.scene.triangles.size(), kBytesPerElement, "the scene", "triangles that are refined");
 }
 
 radiosity::BakeOptions bake_options(const Options& options, const ImportedScene& scene, double patch_size,
@@ -74,10 +93,8 @@ radiosity::BakeOptions bake_options(const Options& options, const ImportedScene&
   radiosity::BakeOptions result;
   result.subdivide.patch_size = static_cast<float>(patch_size);
   result.subdivide.level_of_triangle = scene.level_of_triangle;
-  // A node's own level counts even where all others keep their triangles: the patch size is 0 then.
-  const bool has_levels = std::ranges::any_of(scene.level_of_triangle, [](std::int8_t level) { return level > 0; });
-  result.refine =
-      options.refine == Refine::kNone && has_levels ? radiosity::Refine::kUniform : refine_of(options.refine);
+  const bool has_levels = options.refine == Refine::kNone && is_refined(options, scene);
+  result.refine = has_levels ? radiosity::Refine::kUniform : refine_of(options.refine);
   result.adapt.max_error = options.max_error;
   result.adapt.max_vertices = options.max_vertices;
   result.adapt.space =
@@ -91,6 +108,7 @@ radiosity::BakeOptions bake_options(const Options& options, const ImportedScene&
   result.row_cache_bytes = static_cast<std::size_t>(memory.left() / 2);
   result.subdivide.max_elements =
       std::min<std::size_t>(result.subdivide.max_elements, memory.left() / 4 / kBytesPerElement);
+  result.max_tiles = std::min<std::size_t>(result.max_tiles, memory.left() / 4 / kBytesPerTile);
   result.keep_transport = !options.save_transport.empty();
   result.light_groups = result.keep_transport || options.light_groups != LightGroupStorage::kNone;
   result.parts = parts_of(options.bake);
@@ -134,6 +152,7 @@ Result<Report> bake_document(Baked& baked, const Options& options, const radiosi
   Report report;
   report.warnings = document.warnings;
   progress.update("import", 0.0);
+  if (const auto fits = document.memory->reserve(1, kProgramBytes, "", "program"); !fits) return fits.error();
   Result<ImportedScene> scene = import_scene(document, options, report.warnings);
   if (!scene) return scene.error();
   if (!options.save_transport.empty()) {
@@ -143,6 +162,7 @@ Result<Report> bake_document(Baked& baked, const Options& options, const radiosi
   if (const auto named = name_light_groups(document, options, *scene, report.warnings); !named) return named.error();
   if (const auto wrong = radiosity::validate(scene->scene)) return Error{ErrorCode::kInternal, "", *wrong};
   if (const auto free = check_attribute_is_free(document, *scene, options); !free) return free.error();
+  if (const auto fits = reserve_elements(options, *scene, *document.memory); !fits) return fits.error();
   add_figures(*scene, report);
   progress.update("import", 1.0);
 

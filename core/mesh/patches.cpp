@@ -15,8 +15,6 @@
 namespace radiosity {
 namespace {
 
-constexpr std::size_t kMaxTiles = 4'000'000;
-
 /// Length of a tile as a share of a patch: several tiles to a patch let it be split where a wall stands on it.
 constexpr float kTileLength = 0.5F;
 
@@ -98,15 +96,20 @@ bool has_few_groups(const Scene& scene, std::span<const float> areas, float size
   return true;
 }
 
+/// Triangles are tiles, at least.
+std::size_t most_tiles(std::span<const float> areas, const PatchOptions& options) {
+  return std::max(options.max_tiles, 2 * areas.size());
+}
+
 /// The size of a grid cell that gives few enough groups, metres: splitting them will make more.
-float choose_size(const Scene& scene, std::span<const float> areas, std::uint32_t max_patches) {
+float choose_size(const Scene& scene, std::span<const float> areas, const PatchOptions& options) {
   constexpr double kGroupsPerPatch = 0.8;
-  const auto most = std::max(1U, static_cast<std::uint32_t>(kGroupsPerPatch * max_patches));
+  const auto most = std::max(1U, static_cast<std::uint32_t>(kGroupsPerPatch * options.max_patches));
   const double total_area = std::accumulate(areas.begin(), areas.end(), 0.0);
-  auto size = static_cast<float>(std::sqrt(total_area / max_patches));
+  auto size = static_cast<float>(std::sqrt(total_area / options.max_patches));
   // One cell around everything cannot be merged further: as many groups as surfaces and facings.
   for (const float largest = 4.0F * diagonal(scene); size < largest; size *= 1.1F) {
-    if (count_tiles(scene, areas, kTileLength * size) > std::max(kMaxTiles, 2 * areas.size())) continue;
+    if (count_tiles(scene, areas, kTileLength * size) > most_tiles(areas, options)) continue;
     if (has_few_groups(scene, areas, size, most)) break;
   }
   return size;
@@ -115,12 +118,10 @@ float choose_size(const Scene& scene, std::span<const float> areas, std::uint32_
 /// Tiles, and the patches that their sides are grouped into.
 struct Grouping {
   Tiling tiling;
-  std::vector<Survey> surveys;
-  std::vector<TileSide> sides;
-  Parts patches;                    // of `sides`
-  std::vector<TileSide> unreached;  // one patch more, the last
+  Surveys surveys;  // what is left aside is out of reach: one patch more, the last
+  Parts patches;    // of the sides that take part
 
-  std::uint32_t patch_count() const { return patches.count + (unreached.empty() ? 0 : 1); }
+  std::uint32_t patch_count() const { return patches.count + (surveys.left_aside.empty() ? 0 : 1); }
 };
 
 /// Whether no light reaches a side of a tile, neither its middle nor its corners.
@@ -134,73 +135,68 @@ bool is_unreached(const Patches& patches, const Tile& tile, bool back) {
 }
 
 /// Tiles and patches of `before.size`. What is known to be out of reach there is not grouped again.
-Grouping group(const RayScene& rays, std::span<const float> areas, const Patches& before, const Progress& progress) {
+Grouping group(const RayScene& rays, std::span<const float> areas, const Patches& before, std::size_t max_tiles,
+               const Progress& progress) {
   const Scene& scene = rays.scene();
-  const float size = before.size;
-  Grouping grouping{make_tiles(scene, areas, kTileLength * size), {}, {}, {}, {}};
+  Grouping grouping{make_tiles(scene, areas, kTileLength * before.size), {}, {}};
   const auto takes_part = [&](const Tile& tile, bool back) { return !is_unreached(before, tile, back); };
-  grouping.surveys = cut_straddling_tiles(rays, size, takes_part, grouping.tiling, progress);
-  CellGroups groups(scene, size);
-  for (std::uint32_t k = 0; k < grouping.surveys.size(); ++k) {
-    const Tile& tile = grouping.surveys[k].tile;
-    for (int back = 0; back <= (is_two_sided(scene, tile.triangle) ? 1 : 0); ++back) {
-      if (!takes_part(tile, back != 0)) {
-        grouping.unreached.push_back({k, back != 0, 0, {}});
-      } else {
-        grouping.sides.push_back({k, back != 0, groups.group_of(tile, back != 0), grouping.surveys[k].side[back]});
-      }
-    }
-  }
-  grouping.patches = split_groups(rays, {grouping.sides, groups.count(), size}, progress);
+  Surveys& surveys = grouping.surveys;
+  surveys = cut_straddling_tiles(rays, {before.size, max_tiles}, takes_part, grouping.tiling, progress);
+  CellGroups groups(scene, before.size);
+  for (TileSide& side : surveys.sides) side.group = groups.group_of(surveys.tiles[side.tile], side.back);
+  grouping.patches = split_groups(rays, {surveys.sides, groups.count(), before.size}, progress);
   return grouping;
 }
 
 /// Tells the tiles their patches.
 void assign(const Grouping& grouping, Patches& patches) {
+  const Surveys& surveys = grouping.surveys;
   patches.patch_of_tile.assign(patches.tiling.first_child.size(), kNothing);
   patches.back_patch_of_tile.assign(patches.tiling.first_child.size(), kNothing);
   const auto set = [&](const TileSide& side, std::uint32_t patch) {
     std::vector<std::uint32_t>& of_tile = side.back ? patches.back_patch_of_tile : patches.patch_of_tile;
-    of_tile[grouping.surveys[side.survey].tile.tile] = patch;
+    of_tile[surveys.tiles[side.tile].tile] = patch;
   };
-  for (std::size_t s = 0; s < grouping.sides.size(); ++s) set(grouping.sides[s], grouping.patches.part_of_side[s]);
-  for (const TileSide& side : grouping.unreached) set(side, grouping.patches.count);
-  patches.unreached = grouping.unreached.empty() ? kNothing : grouping.patches.count;
+  for (std::size_t s = 0; s < surveys.sides.size(); ++s) set(surveys.sides[s], grouping.patches.part_of_side[s]);
+  for (const TileSide& side : surveys.left_aside) set(side, grouping.patches.count);
+  patches.unreached = surveys.left_aside.empty() ? kNothing : grouping.patches.count;
 }
 
 /// Moves the sides of patches that no light reaches to the last patch.
 void set_unreached_apart(std::span<const std::uint8_t> reached, Grouping& grouping) {
   std::vector<std::uint32_t> new_number(reached.size(), 0);
   std::exclusive_scan(reached.begin(), reached.end(), new_number.begin(), 0U);
+  std::vector<TileSide>& sides = grouping.surveys.sides;
+  std::vector<std::uint32_t>& part_of_side = grouping.patches.part_of_side;
   std::size_t kept = 0;
-  for (std::size_t s = 0; s < grouping.sides.size(); ++s) {
-    const std::uint32_t part = grouping.patches.part_of_side[s];
-    if (reached[part] == 0) {
-      grouping.unreached.push_back(grouping.sides[s]);
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    if (reached[part_of_side[s]] == 0) {
+      grouping.surveys.left_aside.push_back(sides[s]);
       continue;
     }
-    grouping.sides[kept] = grouping.sides[s];
-    grouping.patches.part_of_side[kept++] = new_number[part];
+    part_of_side[kept] = new_number[part_of_side[s]];
+    sides[kept++] = sides[s];
   }
-  grouping.sides.resize(kept);
-  grouping.patches.part_of_side.resize(kept);
+  sides.resize(kept);
+  part_of_side.resize(kept);
   grouping.patches.count = static_cast<std::uint32_t>(std::accumulate(reached.begin(), reached.end(), 0U));
 }
 
 /// Groups tiles, sets apart what no light reaches, and does so again with larger patches while there are too many, or
 /// once with smaller ones where much was out of reach.
-Grouping group_reached(const RayScene& rays, std::span<const float> areas, std::uint32_t max_patches, Patches& patches,
-                       const Progress& progress) {
-  patches.size = choose_size(rays.scene(), areas, max_patches);
+Grouping group_reached(const RayScene& rays, std::span<const float> areas, const PatchOptions& options,
+                       Patches& patches, const Progress& progress) {
+  patches.size = choose_size(rays.scene(), areas, options);
   for (bool first = true;; first = false) {
-    Grouping grouping = group(rays, areas, patches, progress);
+    Grouping grouping = group(rays, areas, patches, most_tiles(areas, options), progress);
     patches.tiling = std::move(grouping.tiling);
+    patches.most_tiles = std::max(patches.most_tiles, static_cast<std::uint32_t>(grouping.surveys.tiles.size()));
     assign(grouping, patches);
     set_unreached_apart(find_reached(rays, patches, grouping.patches.count, progress), grouping);
     assign(grouping, patches);
-    const float used = static_cast<float>(grouping.patch_count()) / static_cast<float>(max_patches);
+    const float used = static_cast<float>(grouping.patch_count()) / static_cast<float>(options.max_patches);
     const bool too_many = used > 1.0F && patches.size < 4.0F * diagonal(rays.scene());
-    const bool too_few = first && used < kEnoughUsed && !grouping.unreached.empty();
+    const bool too_few = first && used < kEnoughUsed && !grouping.surveys.left_aside.empty();
     if (!too_many && !too_few) return grouping;
     // As many as the square of the size, or a few more: splitting at what stands on them gets less.
     patches.size *= std::sqrt(used) * 1.05F;
@@ -226,8 +222,8 @@ void for_both_sides(const Patches& patches, std::uint32_t triangle, Barycentrics
   }
 }
 
-void sum_reflectance(const Scene& scene, std::span<const Survey> surveys, Patches& patches, Sums& sums) {
-  for (const auto& [tile, sides] : surveys) {
+void sum_reflectance(const Scene& scene, std::span<const Tile> tiles, Patches& patches, Sums& sums) {
+  for (const Tile& tile : tiles) {
     const Rgb rho = mean_reflectance(scene, tile.triangle, tile.part);
     if (std::max({rho.x, rho.y, rho.z}) >= kMaxReflectance) patches.reflectance_clamped_area += double{tile.area};
     for (const std::uint32_t patch : {patches.patch_of_tile[tile.tile], patches.back_patch_of_tile[tile.tile]}) {
@@ -319,7 +315,7 @@ void average(const Scene& scene, const Grouping& grouping, Patches& patches) {
   const std::uint32_t patch_count = grouping.patch_count();
   Sums sums(patch_count);
   patches.surface.resize(patch_count);
-  sum_reflectance(scene, grouping.surveys, patches, sums);
+  sum_reflectance(scene, grouping.surveys.tiles, patches, sums);
   set_lamps_apart(scene, patches, sums);
   patches.area.resize(patch_count);
   patches.reflectance.resize(patch_count);
@@ -333,7 +329,7 @@ void average(const Scene& scene, const Grouping& grouping, Patches& patches) {
 }
 
 /// Spreads `points_per_patch` points over each patch, evenly by area.
-void place_points(const Scene& scene, std::span<const Survey> surveys, int points_per_patch, Patches& patches) {
+void place_points(const Scene& scene, std::span<const Tile> tiles, int points_per_patch, Patches& patches) {
   patches.points_per_patch = points_per_patch;
   const std::uint32_t patch_count = patches.patch_count();
   patches.points.resize(static_cast<std::size_t>(patch_count) * static_cast<std::size_t>(points_per_patch));
@@ -367,7 +363,7 @@ void place_points(const Scene& scene, std::span<const Survey> surveys, int point
       ++placed[patch];
     }
   };
-  for (const auto& [tile, sides] : surveys) {
+  for (const Tile& tile : tiles) {
     visit_side(tile, patches.patch_of_tile[tile.tile], 1.0F);
     visit_side(tile, patches.back_patch_of_tile[tile.tile], -1.0F);
   }
@@ -400,11 +396,10 @@ Patches make_patches(const RayScene& rays, const PatchOptions& options, const Pr
     patches.tiling = make_tiles(scene, areas, 1.0F);
     return patches;
   }
-  const auto most = static_cast<std::uint32_t>(options.max_patches);
-  const Grouping grouping = group_reached(rays, areas, most, patches, progress);
+  const Grouping grouping = group_reached(rays, areas, options, patches, progress);
   progress.update("patches", 0.9);
   average(scene, grouping, patches);
-  place_points(scene, grouping.surveys, options.points_per_patch, patches);
+  place_points(scene, grouping.surveys.tiles, options.points_per_patch, patches);
   progress.update("patches", 1.0);
   return patches;
 }

@@ -36,8 +36,9 @@ struct EmissiveTile {
 };
 
 struct PatchOptions {
-  int max_patches = 4000;    ///< tiles are made larger until no more patches than this remain, >= 1
-  int points_per_patch = 4;  ///< where form factors and direct light of a patch are measured, >= 1
+  int max_patches = 4000;             ///< tiles are made larger until no more patches than this remain, >= 1
+  int points_per_patch = 4;           ///< where form factors and direct light of a patch are measured, >= 1
+  std::size_t max_tiles = 4'000'000;  ///< or twice as many as triangles, if that is more
 };
 
 /// Shapes: per triangle [triangle_count], per tile [tile_count], per patch [patch_count()].
@@ -62,6 +63,7 @@ struct Patches {
 
   double reflectance_clamped_area = 0.0;  ///< m2 whose reflectance was lowered to kMaxReflectance
   std::uint32_t degenerate_triangle_count = 0;
+  std::uint32_t most_tiles = 0;        ///< leaves of the largest tiling that was tried
   std::uint32_t unreached = kNothing;  ///< the patch of all that no light reaches, of reflectance 0; kNothing: none
 
   std::uint32_t patch_count() const { return static_cast<std::uint32_t>(area.size()); }

@@ -77,14 +77,14 @@ struct WalkTiles {
 
 std::vector<WalkTiles> choose_tiles(const Scene& scene, const Patches& patches, std::uint32_t patch_count) {
   std::vector<WalkTiles> chosen(patch_count);
-  for (const Tile& tile : patches.tiling.leaves()) {
+  patches.tiling.for_each_leaf([&](const Tile& tile) {
     for (const bool back : {false, true}) {
       const std::uint32_t patch = (back ? patches.back_patch_of_tile : patches.patch_of_tile)[tile.tile];
       if (patch >= patch_count) continue;
       const std::uint64_t hash = hash_of(surface_point(scene, tile.triangle, middle_of(tile.part), back));
       chosen[patch].offer({tile.triangle, tile.part, back, hash});
     }
-  }
+  });
   return chosen;
 }
 

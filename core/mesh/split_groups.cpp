@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "core/parallel.h"
 #include "core/visibility/hemicube.h"
@@ -142,46 +143,73 @@ Sorted sort_by_group(const Groups& groups) {
   return sorted;
 }
 
+/// What is seen from one tile.
+struct Look {
+  Lookout side[2];
+  bool takes_part[2] = {false, false};
+  bool cut = false;
+};
+
+Look look_around(const Surveyor& surveyor, const Tile& tile, bool two_sided, const TakesPart& takes_part) {
+  Look look;
+  const bool may_be_cut = surveyor.may_be_cut(tile);
+  for (int back = 0; back <= (two_sided ? 1 : 0); ++back) {
+    look.takes_part[back] = takes_part(tile, back != 0);
+    if (!look.takes_part[back]) continue;
+    look.side[back] = surveyor.lookout(tile, back != 0);
+    look.cut = look.cut || (may_be_cut && surveyor.straddles(tile, back != 0, look.side[back]));
+  }
+  return look;
+}
+
+void cut_in_four(const Tile& tile, Tiling& tiling, std::vector<Tile>& quarters) {
+  const auto child = static_cast<std::uint32_t>(tiling.first_child.size());
+  tiling.first_child[tile.tile] = child;
+  tiling.first_child.resize(child + 4, kNothing);
+  for (std::uint32_t c = 0; c < 4; ++c) {
+    quarters.push_back({child + c, tile.triangle, compose(tile.part, tile_part(2, c)), 0.25F * tile.area});
+  }
+}
+
+void keep(const Tile& tile, const Look& look, bool two_sided, Surveys& surveys) {
+  const auto index = static_cast<std::uint32_t>(surveys.tiles.size());
+  surveys.tiles.push_back(tile);
+  for (int back = 0; back <= (two_sided ? 1 : 0); ++back) {
+    (look.takes_part[back] ? surveys.sides : surveys.left_aside).push_back({index, back != 0, 0, look.side[back]});
+  }
+}
+
 }  // namespace
 
-std::vector<Survey> cut_straddling_tiles(const RayScene& rays, float patch_size, const TakesPart& takes_part,
-                                         Tiling& tiling, const Progress& progress) {
+Surveys cut_straddling_tiles(const RayScene& rays, const CutOptions& options, const TakesPart& takes_part,
+                             Tiling& tiling, const Progress& progress) {
+  constexpr std::size_t kBlock = std::size_t{1} << 17U;  // so that looks take 7 MB and not more than what is kept
   const Scene& scene = rays.scene();
-  const Surveyor surveyor(rays, patch_size);
-  std::vector<Survey> surveys;
-  std::vector<Tile> tiles = tiling.leaves();
-  while (!tiles.empty()) {
-    // Look around.
-    std::vector<Survey> round(tiles.size());
-    std::vector<std::uint8_t> cut(tiles.size(), 0);
-    parallel_in_chunks(tiles.size(), 4096, progress, "patches", [&](std::size_t k) {
-      const Tile& tile = tiles[k];
-      round[k] = {tile, {}};
-      const bool may_be_cut = surveyor.may_be_cut(tile);
-      const bool two_sided = scene.surfaces[scene.surface_of_triangle[tile.triangle]].two_sided;
-      for (int back = 0; back <= (two_sided ? 1 : 0); ++back) {
-        if (!takes_part(tile, back != 0)) continue;
-        Lookout& lookout = round[k].side[back];
-        lookout = surveyor.lookout(tile, back != 0);
-        if (may_be_cut && cut[k] == 0 && surveyor.straddles(tile, back != 0, lookout)) cut[k] = 1;
-      }
-    });
-
-    // Cut.
-    std::vector<Tile> next;
-    for (std::size_t k = 0; k < tiles.size(); ++k) {
-      if (cut[k] == 0) {
-        surveys.push_back(round[k]);
-        continue;
-      }
-      const auto child = static_cast<std::uint32_t>(tiling.first_child.size());
-      tiling.first_child[tiles[k].tile] = child;
-      tiling.first_child.resize(child + 4, kNothing);
-      for (std::uint32_t c = 0; c < 4; ++c) {
-        next.push_back({child + c, tiles[k].triangle, compose(tiles[k].part, tile_part(2, c)), 0.25F * tiles[k].area});
+  const Surveyor surveyor(rays, options.patch_size);
+  const auto is_two_sided = [&](const Tile& tile) {
+    return scene.surfaces[scene.surface_of_triangle[tile.triangle]].two_sided;
+  };
+  std::vector<Tile> tiles = tiling.leaves(), quarters;
+  Surveys surveys;
+  surveys.tiles.reserve(tiles.size());
+  surveys.sides.reserve(tiles.size());
+  std::vector<Look> looks;
+  for (; !tiles.empty(); tiles = std::exchange(quarters, {})) {
+    for (std::size_t first = 0; first < tiles.size(); first += kBlock) {
+      const std::span block = std::span<const Tile>(tiles).subspan(first, std::min(kBlock, tiles.size() - first));
+      looks.resize(block.size());
+      parallel_in_chunks(block.size(), 4096, progress, "patches", [&](std::size_t k) {
+        looks[k] = look_around(surveyor, block[k], is_two_sided(block[k]), takes_part);
+      });
+      for (std::size_t k = 0; k < block.size(); ++k) {
+        const std::size_t count = surveys.tiles.size() + quarters.size() + (tiles.size() - first - k);
+        if (looks[k].cut && count + 3 <= options.max_tiles) {
+          cut_in_four(block[k], tiling, quarters);
+        } else {
+          keep(block[k], looks[k], is_two_sided(block[k]), surveys);
+        }
       }
     }
-    tiles = std::move(next);
   }
   return surveys;
 }

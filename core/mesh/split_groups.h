@@ -29,30 +29,36 @@ struct Lookout {
   bool covered = false;    ///< something lies close above
 };
 
-/// A tile and what its front (0) and its back (1) see; the back only where it sends light.
-struct Survey {
-  Tile tile;
-  Lookout side[2];
+/// One side of a tile, and the group it is in.
+struct TileSide {
+  std::uint32_t tile = 0;  ///< index of its tile among the surveys
+  bool back = false;
+  std::uint32_t group = 0;
+  Lookout lookout;
+};
+
+/// The tiles that were not cut further, and their sides, in one order; the backs only of those that send light.
+struct Surveys {
+  std::vector<Tile> tiles;
+  std::vector<TileSide> sides;       ///< that take part
+  std::vector<TileSide> left_aside;  ///< that do not: without a lookout
 };
 
 /// In shares of the size of a patch: shorter tiles are not cut, whatever stands on them.
 inline constexpr float kShortestCut = 1.0F / 8.0F;
 
+struct CutOptions {
+  float patch_size = 0.0F;            ///< metres
+  std::size_t max_tiles = 4'000'000;  ///< nothing is cut that would make more
+};
+
 /// Whether it matters what stands on a side (true: the back) of a tile. Thread-safe.
 using TakesPart = std::function<bool(const Tile&, bool)>;
 
-/// Cuts tiles that something stands on, down to a sixteenth of the size of a patch (m), and describes all that remain.
+/// Cuts tiles that something stands on, down to a sixteenth of the size of a patch, and describes all that remain.
 /// Throws `Cancelled`.
-std::vector<Survey> cut_straddling_tiles(const RayScene& rays, float patch_size, const TakesPart& takes_part,
-                                         Tiling& tiling, const Progress& progress);
-
-/// One side of a tile, and the group it is in.
-struct TileSide {
-  std::uint32_t survey = 0;  ///< index of its tile among the surveys
-  bool back = false;
-  std::uint32_t group = 0;
-  Lookout lookout;
-};
+Surveys cut_straddling_tiles(const RayScene& rays, const CutOptions& options, const TakesPart& takes_part,
+                             Tiling& tiling, const Progress& progress);
 
 struct Groups {
   std::span<const TileSide> sides;

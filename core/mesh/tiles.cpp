@@ -59,8 +59,8 @@ std::uint32_t Tiling::tile_at(std::uint32_t triangle, Barycentrics at) const {
   return tile;
 }
 
-std::vector<Tile> Tiling::leaves() const {
-  std::vector<Tile> found, open;
+void Tiling::for_each_leaf(const std::function<void(const Tile&)>& visit) const {
+  std::vector<Tile> open;
   for (std::uint32_t t = 0; t < cuts_of_triangle.size(); ++t) {
     const std::uint32_t cuts = cuts_of_triangle[t];
     for (std::uint32_t k = 0; k < cuts * cuts; ++k) {
@@ -70,13 +70,21 @@ std::vector<Tile> Tiling::leaves() const {
         const Tile tile = open.back();
         open.pop_back();
         const std::uint32_t child = first_child[tile.tile];
-        if (child == kNothing) found.push_back(tile);
+        if (child == kNothing) visit(tile);
         for (std::uint32_t c = 0; child != kNothing && c < 4; ++c) {
           open.push_back({child + c, t, compose(tile.part, tile_part(2, c)), 0.25F * tile.area});
         }
       }
     }
   }
+}
+
+std::vector<Tile> Tiling::leaves() const {
+  std::size_t count = 0;
+  for_each_leaf([&](const Tile&) { ++count; });
+  std::vector<Tile> found;
+  found.reserve(count);
+  for_each_leaf([&](const Tile& tile) { found.push_back(tile); });
   return found;
 }
 

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -49,6 +50,7 @@ struct Tiling {
   /// The tile that holds a point; kNothing in a triangle without area.
   std::uint32_t tile_at(std::uint32_t triangle, Barycentrics at) const;
   /// Every tile that was not cut further, in order of place.
+  void for_each_leaf(const std::function<void(const Tile&)>& visit) const;
   std::vector<Tile> leaves() const;
 };
 

@@ -20,11 +20,13 @@ export const cheapest = ['--quality', 'draft', '--max-patches', '500', '--hemicu
 // Sanitizers make everything ten times slower: tests then take fewer scenes.
 export const sanitized = () => process.env.GLTF_RADIOSITY_SANITIZED === '1'
 
+const folders = []
+
 // A folder that goes away with the process.
 export function temporary_folder() {
-  const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'gltf-radiosity-test-'))
-  process.on('exit', () => fs.rmSync(folder, { recursive: true, force: true }))
-  return folder
+  if (folders.length === 0) process.on('exit', () => { for (const folder of folders) fs.rmSync(folder, { recursive: true, force: true }) })
+  folders.push(fs.mkdtempSync(path.join(os.tmpdir(), 'gltf-radiosity-test-')))
+  return folders.at(-1)
 }
 
 // { code, signal, stdout, stderr, lines (of stderr), seconds }

@@ -63,7 +63,7 @@ TEST_F(BakeKey, DependsOnTheFile) {
 TEST(CacheKeys, KnowEveryOption) {
   if (sizeof(void*) != 8) GTEST_SKIP() << "sizes are those of 64 bits";
   EXPECT_EQ(sizeof(Options), 520U);
-  EXPECT_EQ(sizeof(radiosity::BakeOptions), 120U);
+  EXPECT_EQ(sizeof(radiosity::BakeOptions), 136U);
   EXPECT_EQ(sizeof(radiosity::BakeReport), 120U);
 }
 

@@ -32,23 +32,24 @@ bool every_side(const Tile& /*tile*/, bool /*back*/) { return true; }
 
 /// A scene surveyed for patches of a given size.
 struct Surveyed {
-  explicit Surveyed(Scene scene_to_survey, float patch_size)
+  explicit Surveyed(Scene scene_to_survey, float patch_size, std::size_t max_tiles = 1'000'000)
       : scene(std::move(scene_to_survey)),
         rays(scene),
         size(patch_size),
         tiling(make_tiles(scene, triangle_areas(scene), 0.5F * patch_size)),
-        surveys(cut_straddling_tiles(rays, patch_size, every_side, tiling, {})) {}
+        surveys(
+            cut_straddling_tiles(rays, {.patch_size = patch_size, .max_tiles = max_tiles}, every_side, tiling, {})) {}
 
   Scene scene;
   RayScene rays;
   float size;
   Tiling tiling;
-  std::vector<Survey> surveys;
+  Surveys surveys;
 };
 
 /// A look-out over the floor of `sunk_box` and its like, as high as those of tiles.
 TileSide side_above(float x, float z, std::uint32_t group = 0) {
-  return {.survey = 0, .back = false, .group = group, .lookout = {{x, 0.05F, z}, 0.05F, false}};
+  return {.tile = 0, .back = false, .group = group, .lookout = {{x, 0.05F, z}, 0.05F, false}};
 }
 
 Parts split(const RayScene& rays, const std::vector<TileSide>& sides, std::uint32_t group_count = 1) {
@@ -98,18 +99,19 @@ void expect_apart(const Sorted& sorted) {
 TEST(CutStraddlingTiles, LeavesAnOpenFloorAlone) {
   const Surveyed s(test::floor_only(), 0.5F);
   EXPECT_EQ(s.tiling.leaves().size(), s.tiling.first_child.size());
-  EXPECT_EQ(s.surveys.size(), s.tiling.first_child.size());
-  for (const Survey& survey : s.surveys) {
-    EXPECT_FALSE(survey.side[0].covered);
-    EXPECT_FLOAT_EQ(survey.side[0].height, 0.05F);
-    EXPECT_NEAR(survey.side[0].lifted.y, 0.05F, 2e-4F);
+  EXPECT_EQ(s.surveys.tiles.size(), s.tiling.first_child.size());
+  ASSERT_EQ(s.surveys.sides.size(), s.surveys.tiles.size());
+  for (const auto& [tile, back, group, lookout] : s.surveys.sides) {
+    EXPECT_FALSE(lookout.covered);
+    EXPECT_FLOAT_EQ(lookout.height, 0.05F);
+    EXPECT_NEAR(lookout.lifted.y, 0.05F, 2e-4F);
   }
 }
 
 TEST(CutStraddlingTiles, DescribesEveryLeafOnce) {
   const Surveyed s(test::wall_through_floor(0.5F), 0.5F);
   std::set<std::uint32_t> surveyed, leaves;
-  for (const Survey& survey : s.surveys) EXPECT_TRUE(surveyed.insert(survey.tile.tile).second);
+  for (const Tile& tile : s.surveys.tiles) EXPECT_TRUE(surveyed.insert(tile.tile).second);
   for (const Tile& tile : s.tiling.leaves()) leaves.insert(tile.tile);
   EXPECT_EQ(surveyed, leaves);
 }
@@ -117,11 +119,11 @@ TEST(CutStraddlingTiles, DescribesEveryLeafOnce) {
 TEST(CutStraddlingTiles, CutsToASixteenthOfAPatchUnderAWallAndNowhereElse) {
   const float size = 0.5F;
   const Surveyed s(test::wall_through_floor(0.5F), size);
-  for (const Survey& survey : s.surveys) {
-    if (survey.tile.triangle >= 2) continue;
-    const Corners corners = corners_of(s.scene, survey.tile);
+  for (const Tile& tile : s.surveys.tiles) {
+    if (tile.triangle >= 2) continue;
+    const Corners corners = corners_of(s.scene, tile);
     const auto [low, high] = std::minmax({corners[0].x - 0.13F, corners[1].x - 0.13F, corners[2].x - 0.13F});
-    const float length = longest_edge(s.scene, survey.tile.triangle, survey.tile.part);
+    const float length = longest_edge(s.scene, tile.triangle, tile.part);
     // A corner that is cut off by less than a twentieth of the way to the middle does not count.
     const bool under_the_wall = low < -0.1F * length && high > 0.1F * length;
     if (under_the_wall) {
@@ -138,22 +140,46 @@ TEST(CutStraddlingTiles, CutsForTheBackToo) {
   for (std::size_t t = 0; t < 2; ++t) std::swap(scene.triangles[t].y, scene.triangles[t].z);
   for (std::size_t v = 0; v < 4; ++v) scene.normals[v] = -scene.normals[v];
   for (std::size_t v = 4; v < 8; ++v) scene.positions[v].y = std::max(scene.positions[v].y, 0.001F);
-  const auto uncut = Surveyed(scene, 0.5F).surveys.size();
+  const auto uncut = Surveyed(scene, 0.5F).surveys.tiles.size();
   scene.surfaces[0].two_sided = true;
-  EXPECT_GT(Surveyed(scene, 0.5F).surveys.size(), uncut + 50);
+  EXPECT_GT(Surveyed(scene, 0.5F).surveys.tiles.size(), uncut + 50);
+}
+
+TEST(CutStraddlingTiles, StopsCuttingWhereThereAreEnough) {
+  const Scene scene = test::wall_through_floor(0.5F);
+  const std::size_t uncut = make_tiles(scene, triangle_areas(scene), 0.25F).first_child.size();
+  const std::size_t all = Surveyed(scene, 0.5F).surveys.tiles.size();
+  ASSERT_GT(all, uncut + 100);
+  EXPECT_EQ(Surveyed(scene, 0.5F, 0).surveys.tiles.size(), uncut);
+  EXPECT_EQ(Surveyed(scene, 0.5F, uncut + 2).surveys.tiles.size(), uncut);
+  EXPECT_EQ(Surveyed(scene, 0.5F, uncut + 30).surveys.tiles.size(), uncut + 30);
+  EXPECT_EQ(Surveyed(scene, 0.5F, all).surveys.tiles.size(), all);
+}
+
+TEST(CutStraddlingTiles, LeavesAsideWhatTakesNoPart) {
+  const Scene scene = test::wall_through_floor(0.5F);
+  const RayScene rays(scene);
+  Tiling tiling = make_tiles(scene, triangle_areas(scene), 0.25F);
+  const auto only_the_floor = [](const Tile& tile, bool /*back*/) { return tile.triangle < 2; };
+  const Surveys surveys = cut_straddling_tiles(rays, {.patch_size = 0.5F}, only_the_floor, tiling, {});
+  EXPECT_FALSE(surveys.sides.empty());
+  EXPECT_FALSE(surveys.left_aside.empty());
+  for (const TileSide& side : surveys.sides) EXPECT_LT(surveys.tiles[side.tile].triangle, 2U);
+  for (const TileSide& side : surveys.left_aside) EXPECT_GE(surveys.tiles[side.tile].triangle, 2U);
 }
 
 TEST(CutStraddlingTiles, FindsWhatIsCovered) {
   const Surveyed s(test::panel_before_wall(0.001F), 0.2F);
-  for (const Survey& survey : s.surveys) {
-    if (survey.tile.triangle >= 2) continue;
-    const glm::vec3 at = glm::abs(middle_of(s.scene, survey.tile));
+  for (const TileSide& side : s.surveys.sides) {
+    const Tile& tile = s.surveys.tiles[side.tile];
+    if (tile.triangle >= 2) continue;
+    const glm::vec3 at = glm::abs(middle_of(s.scene, tile));
     if (std::max(at.x, at.y) < 0.24F) {
-      EXPECT_TRUE(survey.side[0].covered);
-      EXPECT_EQ(survey.side[0].height, 0.0F);
+      EXPECT_TRUE(side.lookout.covered);
+      EXPECT_EQ(side.lookout.height, 0.0F);
     }
     if (std::max(at.x, at.y) > 0.26F) {
-      EXPECT_FALSE(survey.side[0].covered) << at.x << ' ' << at.y;
+      EXPECT_FALSE(side.lookout.covered) << at.x << ' ' << at.y;
     }
   }
 }
@@ -163,7 +189,7 @@ TEST(CutStraddlingTiles, StopsWhenCancelled) {
   const RayScene rays(scene);
   Tiling tiling = make_tiles(scene, triangle_areas(scene), 0.1F);
   const Progress cancelled{.report = {}, .cancelled = [] { return true; }};
-  EXPECT_THROW(cut_straddling_tiles(rays, 0.2F, every_side, tiling, cancelled), Cancelled);
+  EXPECT_THROW(cut_straddling_tiles(rays, {.patch_size = 0.2F}, every_side, tiling, cancelled), Cancelled);
 }
 
 TEST(SplitGroups, KeepsTogetherWhatSeesEachOther) {
