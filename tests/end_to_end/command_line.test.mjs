@@ -14,16 +14,19 @@ const reds_of = (gltf) =>
   primitives_of_scene(gltf).flatMap(([, primitive]) => colors_of(gltf, primitive).map(([red]) => red))
 const mean = (values) => values.reduce((sum, value) => sum + value, 0) / values.length
 
-for (const scene of ['cornell_box', 'textured_interior', 'lights_all_kinds']) {
-  test(`${scene} bakes to the same bytes with 1, 2 and 7 threads`, () => {
-    const outputs = [1, 2, 7].map((threads) => {
-      const output = target(`${scene}.glb`)
-      bake(test_asset(`${scene}.glb`), output, '--quality', 'draft', '--threads', threads)
-      return fs.readFileSync(output)
-    })
-    assert.ok(outputs[1].equals(outputs[0]), '2 threads differ from 1')
-    assert.ok(outputs[2].equals(outputs[0]), '7 threads differ from 1')
+const thread_counts = sanitized() ? [1, 7] : [1, 2, 7]
+
+function assert_threads_do_not_matter(scene, ...options) {
+  const output = target(`${scene}.glb`)
+  const [one, ...others] = thread_counts.map((threads) => {
+    bake(test_asset(`${scene}.glb`), output, '--quality', 'draft', '--threads', threads, ...options)
+    return fs.readFileSync(output)
   })
+  for (const other of others) assert.ok(other.equals(one))
+}
+
+for (const scene of ['cornell_box', 'textured_interior', 'lights_all_kinds']) {
+  test(`${scene} bakes to the same bytes with ${thread_counts} threads`, () => assert_threads_do_not_matter(scene))
 }
 
 test('a scene without any light gets a white sky and a warning', async () => {
@@ -62,15 +65,8 @@ test('--sky replaces the sky of the file and says so; the file itself keeps it',
   assert.deepEqual(bake(test_asset('image_based_light.glb'), output).warnings, [])
 })
 
-test('a court under an HDR sky bakes to the same bytes with 1, 2 and 7 threads', () => {
-  const outputs = [1, 2, 7].map((threads) => {
-    const output = target('sunny.glb')
-    const options = ['--quality', 'draft', '--sky', test_asset('sunny.hdr'), '--threads', threads]
-    bake(test_asset('sky_court.glb'), output, ...options)
-    return fs.readFileSync(output)
-  })
-  assert.ok(outputs[1].equals(outputs[0]), '2 threads differ from 1')
-  assert.ok(outputs[2].equals(outputs[0]), '7 threads differ from 1')
+test(`a court under an HDR sky bakes to the same bytes with ${thread_counts} threads`, () => {
+  assert_threads_do_not_matter('sky_court', '--sky', test_asset('sunny.hdr'))
 })
 
 test('--exposure scales the colours and is written into the file', () => {
