@@ -143,6 +143,18 @@ test('an output that cannot be written ends with 3', () => {
   }
 })
 
+test('a bake goes on when nobody reads its progress any more, and says when nobody reads its report', async () => {
+  for (const [options, stream, expected] of [[['--progress', 'plain'], 'stderr', 0], [['--json', '-'], 'stdout', 3]]) {
+    const output = target('unread.glb')
+    fs.rmSync(output, { force: true })
+    const child = spawn(program(), [test_asset('cornell_box.glb'), output, '--quality', 'draft', ...options])
+    child[stream].destroy()
+    const ending = await new Promise((resolve) => child.on('exit', (code, signal) => resolve(code ?? signal)))
+    assert.equal(ending, expected, stream)
+    await check_baked(test_asset('cornell_box.glb'), output)
+  }
+})
+
 test('an interrupted bake stops soon, says so by its exit code, and leaves the old file', async () => {
   const output = target('old.glb')
   fs.writeFileSync(output, 'old')
