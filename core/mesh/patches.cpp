@@ -182,12 +182,28 @@ void set_unreached_apart(std::span<const std::uint8_t> reached, Grouping& groupi
   grouping.patches.count = static_cast<std::uint32_t>(std::accumulate(reached.begin(), reached.end(), 0U));
 }
 
+/// How many patches came of a size, as a share of those that there may be.
+struct Attempt {
+  float size = 0.0F;  ///< metres
+  float used = 0.0F;
+};
+
+/// A size for all that there may be, or a few less. Their number falls as a power of the size: its square where cells
+/// cut surfaces up, less where every small surface is a patch of its own whatever the size. Two attempts tell the
+/// power.
+float next_size(const Attempt& now, const Attempt& before) {
+  if (now.used < 1.0F) return now.size * std::sqrt(now.used) * 1.05F;
+  const bool known = before.used > now.used && before.size > 0.0F && before.size < now.size;
+  const float power = known ? std::log(before.used / now.used) / std::log(now.size / before.size) : 1.25F;
+  return now.size * std::pow(now.used, 1.0F / std::clamp(power, 0.5F, 2.0F)) * 1.03F;
+}
+
 /// Groups tiles, sets apart what no light reaches, and does so again with larger patches while there are too many, or
 /// once with smaller ones where much was out of reach.
 Grouping group_reached(const RayScene& rays, std::span<const float> areas, const PatchOptions& options,
                        Patches& patches, const Progress& progress) {
   patches.size = choose_size(rays.scene(), areas, options);
-  for (bool first = true;; first = false) {
+  for (Attempt before{};;) {
     Grouping grouping = group(rays, areas, patches, most_tiles(areas, options), progress);
     patches.tiling = std::move(grouping.tiling);
     patches.most_tiles = std::max(patches.most_tiles, static_cast<std::uint32_t>(grouping.surveys.tiles.size()));
@@ -195,11 +211,12 @@ Grouping group_reached(const RayScene& rays, std::span<const float> areas, const
     set_unreached_apart(find_reached(rays, patches, grouping.patches.count, progress), grouping);
     assign(grouping, patches);
     const float used = static_cast<float>(grouping.patch_count()) / static_cast<float>(options.max_patches);
-    const bool too_many = used > 1.0F && patches.size < 4.0F * diagonal(rays.scene());
-    const bool too_few = first && used < kEnoughUsed && !grouping.surveys.left_aside.empty();
+    const Attempt now{patches.size, used};
+    const bool too_many = used > 1.0F && now.size < 4.0F * diagonal(rays.scene());
+    const bool too_few = before.used == 0.0F && used < kEnoughUsed && !grouping.surveys.left_aside.empty();
     if (!too_many && !too_few) return grouping;
-    // As many as the square of the size, or a few more: splitting at what stands on them gets less.
-    patches.size *= std::sqrt(used) * 1.05F;
+    patches.size = next_size(now, before);
+    before = now;
   }
 }
 
