@@ -92,6 +92,7 @@ BakeReport describe(const RefinedMesh& mesh, const Patches& patches, const Solut
   report.escaped_flux = balance.escaped;
   report.buried_element_count = static_cast<std::uint32_t>(std::count(samples.buried.begin(), samples.buried.end(), 1));
   report.tile_count = patches.most_tiles;
+  report.reached_tile_limit = patches.reached_tile_limit;
   report.degenerate_triangle_count = patches.degenerate_triangle_count;
   report.reflectance_clamped_area = patches.reflectance_clamped_area;
   report.lamp_count = static_cast<std::uint32_t>(patches.lamps.size());

@@ -72,8 +72,9 @@ struct BakeReport {
   double glow_share = 0.0;                      ///< of the emitted flux: what is left to hemicubes, [0,1]
   double reflectance_clamped_area = 0.0;        ///< m2 whose reflectance was above kMaxReflectance
   bool reached_element_limit = false;
-  bool out_of_time = false;      ///< the time was over before the light was solved or the mesh fine enough
-  double estimated_error = 0.0;  ///< of the light that is displayed, relative RMSE
+  bool reached_tile_limit = false;  ///< BakeOptions::max_tiles made patches coarser
+  bool out_of_time = false;         ///< the time was over before the light was solved or the mesh fine enough
+  double estimated_error = 0.0;     ///< of the light that is displayed, relative RMSE
   std::uint32_t refine_rounds = 0;
   RefineEnd refine_end = RefineEnd::kNotAdaptive;
   Visibility visibility = Visibility::kRays;  ///< what kAuto chose

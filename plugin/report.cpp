@@ -101,6 +101,10 @@ void add_warnings(const radiosity::BakeReport& bake, std::vector<Warning>& warni
          fmt::format("{:.4g} m2 reflect more than {} of the light: light was computed as if they reflected that",
                      bake.reflectance_clamped_area, radiosity::kMaxReflectance));
   }
+  if (bake.reached_tile_limit) {
+    warn("tile-limit",
+         "memory was short: patches were not cut wherever something stands on them, and light may leak there");
+  }
   if (bake.reached_element_limit)
     warn("element-limit", "the mesh grew too large before its edges were as short as the patch size");
 }

@@ -102,15 +102,17 @@ std::size_t most_tiles(std::span<const float> areas, const PatchOptions& options
 }
 
 /// The size of a grid cell that gives few enough groups, metres: splitting them will make more.
-float choose_size(const Scene& scene, std::span<const float> areas, const PatchOptions& options) {
+float choose_size(const Scene& scene, std::span<const float> areas, const PatchOptions& options,
+                  bool& reached_tile_limit) {
   constexpr double kGroupsPerPatch = 0.8;
   const auto most = std::max(1U, static_cast<std::uint32_t>(kGroupsPerPatch * options.max_patches));
   const double total_area = std::accumulate(areas.begin(), areas.end(), 0.0);
   auto size = static_cast<float>(std::sqrt(total_area / options.max_patches));
   // One cell around everything cannot be merged further: as many groups as surfaces and facings.
   for (const float largest = 4.0F * diagonal(scene); size < largest; size *= 1.1F) {
-    if (count_tiles(scene, areas, kTileLength * size) > most_tiles(areas, options)) continue;
-    if (has_few_groups(scene, areas, size, most)) break;
+    const bool too_many_tiles = count_tiles(scene, areas, kTileLength * size) > most_tiles(areas, options);
+    reached_tile_limit = reached_tile_limit || too_many_tiles;
+    if (!too_many_tiles && has_few_groups(scene, areas, size, most)) break;
   }
   return size;
 }
@@ -202,10 +204,11 @@ float next_size(const Attempt& now, const Attempt& before) {
 /// once with smaller ones where much was out of reach.
 Grouping group_reached(const RayScene& rays, std::span<const float> areas, const PatchOptions& options,
                        Patches& patches, const Progress& progress) {
-  patches.size = choose_size(rays.scene(), areas, options);
+  patches.size = choose_size(rays.scene(), areas, options, patches.reached_tile_limit);
   for (Attempt before{};;) {
     Grouping grouping = group(rays, areas, patches, most_tiles(areas, options), progress);
     patches.tiling = std::move(grouping.tiling);
+    patches.reached_tile_limit = patches.reached_tile_limit || grouping.surveys.reached_limit;
     patches.most_tiles = std::max(patches.most_tiles, static_cast<std::uint32_t>(grouping.surveys.tiles.size()));
     assign(grouping, patches);
     set_unreached_apart(find_reached(rays, patches, grouping.patches.count, progress), grouping);

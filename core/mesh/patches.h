@@ -63,6 +63,7 @@ struct Patches {
 
   double reflectance_clamped_area = 0.0;  ///< m2 whose reflectance was lowered to kMaxReflectance
   std::uint32_t degenerate_triangle_count = 0;
+  bool reached_tile_limit = false;     ///< PatchOptions::max_tiles kept tiles larger than wanted
   std::uint32_t most_tiles = 0;        ///< leaves of the largest tiling that was tried
   std::uint32_t unreached = kNothing;  ///< the patch of all that no light reaches, of reflectance 0; kNothing: none
 

@@ -203,7 +203,9 @@ Surveys cut_straddling_tiles(const RayScene& rays, const CutOptions& options, co
       });
       for (std::size_t k = 0; k < block.size(); ++k) {
         const std::size_t count = surveys.tiles.size() + quarters.size() + (tiles.size() - first - k);
-        if (looks[k].cut && count + 3 <= options.max_tiles) {
+        const bool has_room = count + 3 <= options.max_tiles;
+        surveys.reached_limit = surveys.reached_limit || (looks[k].cut && !has_room);
+        if (looks[k].cut && has_room) {
           cut_in_four(block[k], tiling, quarters);
         } else {
           keep(block[k], looks[k], is_two_sided(block[k]), surveys);

@@ -42,6 +42,7 @@ struct Surveys {
   std::vector<Tile> tiles;
   std::vector<TileSide> sides;       ///< that take part
   std::vector<TileSide> left_aside;  ///< that do not: without a lookout
+  bool reached_limit = false;        ///< something was not cut, for there were `max_tiles`
 };
 
 /// In shares of the size of a patch: shorter tiles are not cut, whatever stands on them.

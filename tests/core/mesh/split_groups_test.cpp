@@ -153,7 +153,9 @@ TEST(CutStraddlingTiles, StopsCuttingWhereThereAreEnough) {
   EXPECT_EQ(Surveyed(scene, 0.5F, 0).surveys.tiles.size(), uncut);
   EXPECT_EQ(Surveyed(scene, 0.5F, uncut + 2).surveys.tiles.size(), uncut);
   EXPECT_EQ(Surveyed(scene, 0.5F, uncut + 30).surveys.tiles.size(), uncut + 30);
+  EXPECT_TRUE(Surveyed(scene, 0.5F, uncut + 30).surveys.reached_limit);
   EXPECT_EQ(Surveyed(scene, 0.5F, all).surveys.tiles.size(), all);
+  EXPECT_FALSE(Surveyed(scene, 0.5F, all).surveys.reached_limit);
 }
 
 TEST(CutStraddlingTiles, LeavesAsideWhatTakesNoPart) {
