@@ -23,7 +23,7 @@ static void remember_signal(int signal) {
 
 void catch_interrupts() {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that is larger than allowed is an error of writing it, then
-  std::signal(SIGPIPE, SIG_IGN);  // and so is a report that nobody reads; progress that nobody reads is no reason to end
+  std::signal(SIGPIPE, SIG_IGN);  // and so is a report that nobody reads; to progress it does not matter
   for (const int signal : {SIGINT, SIGTERM}) {
     struct sigaction before = {};
     sigaction(signal, nullptr, &before);
