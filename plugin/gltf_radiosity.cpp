@@ -105,7 +105,8 @@ radiosity::BakeOptions bake_options(const Options& options, const ImportedScene&
   result.solver =
       options.solver == SolverMethod::kGathering ? radiosity::Solver::kGathering : radiosity::Solver::kProgressive;
   result.fit = options.fit == FitMethod::kInterpolate ? radiosity::Fit::kInterpolate : radiosity::Fit::kLeastSquares;
-  result.row_cache_bytes = static_cast<std::size_t>(memory.left() / 2);
+  // What is kept for relighting is a copy of the rows.
+  result.row_cache_bytes = static_cast<std::size_t>(memory.left() / (options.save_transport.empty() ? 2 : 4));
   result.subdivide.max_elements =
       std::min<std::size_t>(result.subdivide.max_elements, memory.left() / 4 / kBytesPerElement);
   result.max_tiles = std::min<std::size_t>(result.max_tiles, memory.left() / 4 / kBytesPerTile);
