@@ -103,7 +103,8 @@ void add_warnings(const radiosity::BakeReport& bake, std::vector<Warning>& warni
   }
   if (bake.reached_tile_limit) {
     warn("tile-limit",
-         "memory was short: patches were not cut wherever something stands on them, and light may leak there");
+         "patches are coarser than wanted, for there would be too many tiles or too little memory for them; light may "
+         "leak where something stands on a patch");
   }
   if (bake.reached_element_limit)
     warn("element-limit", "the mesh grew too large before its edges were as short as the patch size");

@@ -80,10 +80,8 @@ void Tiling::for_each_leaf(const std::function<void(const Tile&)>& visit) const 
 }
 
 std::vector<Tile> Tiling::leaves() const {
-  std::size_t count = 0;
-  for_each_leaf([&](const Tile&) { ++count; });
   std::vector<Tile> found;
-  found.reserve(count);
+  found.reserve(first_child.size());
   for_each_leaf([&](const Tile& tile) { found.push_back(tile); });
   return found;
 }

@@ -1,8 +1,8 @@
 // The figures of docs/reliability.md about single files and batches: node soak.mjs REPORT.json
 //
 // How long each malformed file takes to be refused; what becomes of every file from elsewhere, in batches of one thread and of all,
-// whose bytes must agree; and how much memory each takes under limits that are tighter and tighter. tools/soak sets the environment. Ends with 1 if
-// anything was lost, crashed or differed.
+// whose bytes must agree; and how much memory each takes under limits that are tighter and tighter. tools/soak sets the
+// environment. Ends with 1 if anything was lost, crashed or differed.
 import assert from 'node:assert/strict'
 import fs from 'node:fs'
 import os from 'node:os'
