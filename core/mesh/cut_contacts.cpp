@@ -194,10 +194,46 @@ std::vector<EdgeCopies::Part> ContactCutter::cut(std::uint32_t element, const Me
   return parts;
 }
 
+/// How many contacts cross the stretch between two places.
+int ContactCutter::crossings(std::span<const Line> lines, const glm::uvec2& end_classes) const {
+  const glm::dvec3 a = place_of(end_classes.x), b = place_of(end_classes.y);
+  return static_cast<int>(std::ranges::count_if(lines, [&](const Line& line) {
+    if (line.side(a, tolerance_) * line.side(b, tolerance_) >= 0) return false;
+    const double at = line.beside(a) / (line.beside(a) - line.beside(b)), place = line.place(a + at * (b - a));
+    return place >= -tolerance_ && place <= line.length + tolerance_;
+  }));
+}
+
+/// Turns an edge if fewer contacts cross it then, and what comes of it is no sliver.
+bool ContactCutter::turn(std::uint32_t edge) {
+  const std::uint32_t triangle = cut_.bridge.triangle_at(edge, 0);
+  if (triangle == kNothing || cut_.bridge.triangle_at(edge, 1) != triangle) return false;
+  const auto found = lines_on_.find(triangle);
+  if (found == lines_on_.end()) return false;
+  const glm::uvec2 ends = cut_.bridge.end_classes(edge), opposite = cut_.bridge.opposite_classes(edge);
+  if (cut_.seams.contains(pair_key(ends))) return false;
+  const int before = crossings(found->second, ends);
+  if (before == 0 || crossings(found->second, opposite) >= before) return false;
+
+  // As a quad it must be convex.
+  const glm::dvec3 a = place_of(ends.x), b = place_of(ends.y), l = place_of(opposite.x), r = place_of(opposite.y);
+  if (glm::dot(glm::cross(r - l, a - l), glm::cross(r - l, b - l)) >= 0.0) return false;
+  return least_height(l, r, a) > tolerance_ && least_height(l, r, b) > tolerance_ && edges_.turn(edge);
+}
+
+/// Whether there was anything to turn.
+bool ContactCutter::turn_edges_off_lines() {
+  bool any = false;
+  for (std::uint32_t edge = 0; edge < cut_.bridge.edge_count(); ++edge) any = turn(edge) || any;
+  return any;
+}
+
 void ContactCutter::cut_all(const MeshLimits& limits) {
   if (lines_on_.empty()) return;
   cut_.bridge.begin_round(0, 0);
-  for (std::uint32_t element = 0; element < cut_.bridge.face_count(); ++element) cut(element, limits);
+  do {
+    for (std::uint32_t element = 0; element < cut_.bridge.face_count(); ++element) cut(element, limits);
+  } while (turn_edges_off_lines());
   cut_.write_elements();
   split_sides(limits);
 }

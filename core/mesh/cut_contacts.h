@@ -41,7 +41,7 @@ class ContactCutter {
   /// the elements of the mesh are written; they are again in the end.
   void split_sides(const MeshLimits& limits);
 
-  /// Both for all elements. They are left in the order of their numbers.
+  /// Both for all elements, turning edges off contacts in between. They are left in the order of their numbers.
   void cut_all(const MeshLimits& limits);
 
  private:
@@ -57,6 +57,9 @@ class ContactCutter {
   bool is_clear(std::span<const std::uint32_t> copies, const glm::dvec3& place) const;
   std::optional<Crossing> crossing_of(const Line& line, std::uint32_t element, double least_covered) const;
   bool goes_on(std::uint32_t edge) const;
+  int crossings(std::span<const Line> lines, const glm::uvec2& end_classes) const;
+  bool turn(std::uint32_t edge);
+  bool turn_edges_off_lines();
   void mark_seams(std::uint32_t element, std::span<const Line> lines);
 
   CutMesh& cut_;

@@ -33,6 +33,16 @@ std::vector<std::uint32_t> EdgeCopies::copies_of(std::uint32_t edge) const {
   return copies;
 }
 
+bool EdgeCopies::turn(std::uint32_t edge) {
+  const std::uint64_t before = pair_key(cut_.bridge.end_classes(edge));
+  const std::uint64_t after = pair_key(cut_.bridge.opposite_classes(edge));
+  const bool has_copies = first_edge_between_.at(before) != edge || next_copy_[edge] != kNothing;
+  if (has_copies || first_edge_between_.contains(after) || !cut_.bridge.turn(edge)) return false;
+  first_edge_between_.erase(before);
+  remember(edge);
+  return true;
+}
+
 bool EdgeCopies::fits(std::span<const std::uint32_t> copies, const MeshLimits& limits) const {
   std::set<std::uint64_t> new_vertices;
   std::size_t new_elements = 0;

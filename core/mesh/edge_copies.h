@@ -42,6 +42,10 @@ class EdgeCopies {
   /// Cuts them `at` (0,1) of the way from the first of their end classes to the second.
   std::vector<Part> cut(std::span<const std::uint32_t> copies, float at);
 
+  /// Lets an edge inside a triangle join the corners opposite it (OpenMeshBridge::turn()). False, and nothing done, if
+  /// it has copies, or an edge lies there already.
+  bool turn(std::uint32_t edge);
+
  private:
   void remember(std::uint32_t edge);
 

@@ -101,17 +101,18 @@ struct OpenMeshBridge::Net {
     return turned < kept || (turned == kept && place(left) < place(old_end));
   }
 
-  void turn(EdgeHandle cut) {
-    const HalfedgeHandle halfedge = mesh.halfedge_handle(cut, 0);
-    const HalfedgeHandle twin = mesh.halfedge_handle(cut, 1);
+  /// Puts the other diagonal of the quad around `edge`, inside one triangle, in its place; false if there is such an
+  /// edge already.
+  bool turn(EdgeHandle edge) {
+    const HalfedgeHandle halfedge = mesh.halfedge_handle(edge, 0);
+    const HalfedgeHandle twin = mesh.halfedge_handle(edge, 1);
     const HalfedgeHandle to_left = mesh.next_halfedge_handle(halfedge);
     const HalfedgeHandle to_right = mesh.next_halfedge_handle(twin);
-    if (!mesh.is_flip_ok(cut)) {
-      return;  // both diagonals cut the triangle without a gap
-    }
-    mesh.flip(cut);
+    if (!mesh.is_flip_ok(edge)) return false;
+    mesh.flip(edge);
     mesh.property(corner, mesh.next_halfedge_handle(to_left)) = mesh.property(corner, to_right);
     mesh.property(corner, mesh.next_halfedge_handle(to_right)) = mesh.property(corner, to_left);
+    return true;
   }
 };
 
@@ -197,6 +198,17 @@ void OpenMeshBridge::rename(std::uint32_t element, std::uint32_t old_vertex, std
   }
 }
 
+glm::uvec2 OpenMeshBridge::opposite_classes(std::uint32_t edge) const {
+  const Net& net = *net_;
+  const auto class_across = [&](unsigned int side) {
+    const HalfedgeHandle halfedge = net.mesh.halfedge_handle(edge_of(edge), side);
+    return net.mesh.property(net.position_class, net.mesh.to_vertex_handle(net.mesh.next_halfedge_handle(halfedge)));
+  };
+  return {class_across(0), class_across(1)};
+}
+
+bool OpenMeshBridge::turn(std::uint32_t edge) { return net_->turn(edge_of(edge)); }
+
 void OpenMeshBridge::begin_round(std::size_t edges, std::size_t sides) {
   Mesh& mesh = net_->mesh;
   mesh.reserve(mesh.n_vertices() + edges, mesh.n_edges() + edges + sides, mesh.n_faces() + sides);
@@ -267,7 +279,7 @@ std::array<std::uint32_t, 2> OpenMeshBridge::cut(std::uint32_t edge, float at, s
 void OpenMeshBridge::end_round() {
   for (const EdgeHandle cut : net_->cuts) {
     if (net_->should_turn(cut)) {
-      net_->turn(cut);
+      net_->turn(cut);  // if it cannot be, the other diagonal cuts the triangle without a gap as well
     }
   }
 }

@@ -51,6 +51,12 @@ class OpenMeshBridge {
   /// REQUIRES: there is one.
   glm::uvec2 vertices_at(std::uint32_t edge, unsigned int side) const;
 
+  /// The position classes of the corners opposite `edge`, by side. REQUIRES: there is an element on either side.
+  glm::uvec2 opposite_classes(std::uint32_t edge) const;
+  /// Lets `edge` join those instead; the elements beside it keep their numbers, and so does it. False, and nothing
+  /// done, if an edge does already. REQUIRES: the same triangle on either side, and that they make a convex quad.
+  bool turn(std::uint32_t edge);
+
   /// Lets an element name `vertex` where it named `old_vertex` so far.
   void rename(std::uint32_t element, std::uint32_t old_vertex, std::uint32_t vertex);
 
