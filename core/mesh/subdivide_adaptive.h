@@ -51,6 +51,7 @@ class Bisector {
 
   /// Whether something was left uncut because of `max_vertices` or `max_elements`.
   bool reached_limit() const { return reached_limit_; }
+  std::size_t max_vertices() const { return limits_.mesh.max_vertices; }
 
  private:
   std::uint32_t longest_edge_of(std::uint32_t element) const;

@@ -35,13 +35,19 @@ double error_left_to_mesh(double max_error) {
   return std::sqrt(max_error * max_error - of_transport * of_transport);
 }
 
+/// A round cuts one in this many elements at least, or of the vertices that may be added to the scene's: few rounds are
+/// cheap, but what is spent by then cannot go where the misfit is.
+constexpr std::size_t kRounds = 64;
+
 /// What the next round of refinement is to cut.
 std::vector<std::uint32_t> next_to_cut(const DisplayMesh& display, const Misfit& misfit) {
   if (!display.bisector || display.bisector->reached_limit()) return {};
   const Bisector& bisector = *display.bisector;
   std::vector<std::uint8_t> may_be_cut(misfit.of_element.size());
   for (std::uint32_t e = 0; e < may_be_cut.size(); ++e) may_be_cut[e] = bisector.can_be_bisected(e) ? 1 : 0;
-  return worst_elements(misfit, may_be_cut);
+  const std::size_t of_scene = display.mesh().scene_vertex_count;
+  const std::size_t budget = std::max(bisector.max_vertices(), of_scene) - of_scene;
+  return worst_elements(misfit, may_be_cut, std::min(may_be_cut.size(), budget) / kRounds + 1);
 }
 
 /// Why there is no further round; kNotAdaptive if there is one.

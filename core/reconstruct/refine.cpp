@@ -15,7 +15,7 @@ namespace {
 
 /// What is cut in one round: the more at once, the more is cut that would have come right by itself.
 constexpr double kShareOfMisfit = 0.5;
-constexpr std::size_t kMostShare = 8, kLeastShare = 64;  ///< one in this many elements
+constexpr std::size_t kMostShare = 8;  ///< one in this many elements
 
 bool has_samples(const Samples& samples, std::uint32_t e) {
   return samples.first_of_element[e + 1] > samples.first_of_element[e];
@@ -153,7 +153,8 @@ ErrorEstimate check_error(const RefinedMesh& mesh, const Samples& samples, std::
   return {std::sqrt(std::max(0.0, squared)) / misfit.mean, std::sqrt(std::sqrt(scatter) / total) / misfit.mean};
 }
 
-std::vector<std::uint32_t> worst_elements(const Misfit& misfit, std::span<const std::uint8_t> may_be_cut) {
+std::vector<std::uint32_t> worst_elements(const Misfit& misfit, std::span<const std::uint8_t> may_be_cut,
+                                          std::size_t least) {
   std::vector<std::uint32_t> elements;
   double left = 0.0;
   for (std::uint32_t e = 0; e < misfit.of_element.size(); ++e) {
@@ -168,7 +169,7 @@ std::vector<std::uint32_t> worst_elements(const Misfit& misfit, std::span<const 
   const std::size_t most = std::min(count / kMostShare + 1, elements.size());
   std::partial_sort(elements.begin(), elements.begin() + static_cast<std::ptrdiff_t>(most), elements.end(), is_worse);
   std::size_t taken = 0;
-  for (; taken < most && (left > 0.0 || taken < count / kLeastShare + 1); ++taken) {
+  for (; taken < most && (left > 0.0 || taken < least); ++taken) {
     left -= misfit.of_element[elements[taken]];
   }
   elements.resize(taken);

@@ -59,7 +59,8 @@ ErrorEstimate check_error(const RefinedMesh& mesh, const Samples& samples, std::
                           const Progress& progress);
 
 /// What to cut next: of those elements that `may_be_cut` [element_count], worst first, as many as have half of all
-/// their misfit, but an eighth of all elements at most and a 64th at least.
-std::vector<std::uint32_t> worst_elements(const Misfit& misfit, std::span<const std::uint8_t> may_be_cut);
+/// their misfit, but `least` at least and an eighth of all elements at most.
+std::vector<std::uint32_t> worst_elements(const Misfit& misfit, std::span<const std::uint8_t> may_be_cut,
+                                          std::size_t least);
 
 }  // namespace radiosity

@@ -620,6 +620,18 @@ TEST(Bake, RefinesOnlyAlongTheEdgeOfAShadow) {
   EXPECT_LT(far, small / 50);
 }
 
+TEST(Bake, SpendsAFewVerticesWhereTheyAreNeededThoughTheSceneIsFine) {
+  // A shadow on a floor of 20 000 triangles, of which few lie on its edge: a 64th of them at once is all there may be.
+  Scene scene = test::tessellated(test::occluder(), 70);
+  for (Surface& surface : scene.surfaces) surface.emission = Rgb(0.0F);
+  scene.lights = {{.kind = Light::Kind::kDirectional, .direction = {0, -1, 0}, .intensity = Rgb(10.0F)}};
+  BakeOptions options = adaptive(1e-6, scene.positions.size() + 300);
+  options.subdivide.patch_size = 0.0F;
+  const Bake baked = bake(scene, options, {});
+  EXPECT_EQ(baked.report.refine_end, RefineEnd::kLimit);
+  EXPECT_GE(baked.report.refine_rounds, 4U);
+}
+
 TEST(Bake, EndsRefinementWhereItIsTold) {
   const Scene scene = test::cornell_box();
   const Bake by_error = bake(scene, adaptive(0.04, 100'000), {});
