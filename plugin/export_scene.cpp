@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
 #include <map>
 #include <optional>
 #include <set>
@@ -11,7 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/photometry.h"
 #include "core/reconstruct/exposure.h"
+#include "core/reconstruct/shown_light.h"
 #include "plugin/export_colors.h"
 #include "plugin/export_materials.h"
 #include "plugin/export_meshes.h"
@@ -93,6 +97,29 @@ std::vector<VertexColors> colors_of_groups(const ImportedScene& scene, const rad
   return colors;
 }
 
+/// Of what elements display, what is brighter than `white` (cd/m2) cut off.
+struct Displayed {
+  double area = 0.0, luminance = 0.0;  ///< m2, mean in cd/m2
+};
+
+Displayed displayed(const ImportedScene& scene, const radiosity::Bake& bake,
+                    const std::vector<RefinedPrimitive>& refined, float white) {
+  const radiosity::ShownLight shown = radiosity::shown_light(scene.scene, bake.mesh);
+  Displayed all;
+  for (std::size_t i = 0; i < refined.size(); ++i) {
+    if (!scene.instances[i].receives) continue;
+    for (const std::uint32_t e : refined[i].elements) {
+      const glm::uvec3& corner = bake.mesh.elements[e];
+      const Rgb light = bake.irradiance[corner.x] + bake.irradiance[corner.y] + bake.irradiance[corner.z];
+      const auto area = double{element_area(bake.mesh, e)};
+      all.area += area;
+      all.luminance += area * double{radiosity::luminance_of(glm::min(shown.under(e, light / 3.0F), Rgb(white)))};
+    }
+  }
+  if (all.area > 0.0) all.luminance /= all.area;
+  return all;
+}
+
 /// All colours, with the texture that suits each material, and the exposure they want.
 std::vector<VertexColors> exposed_colors(const ImportedScene& scene, const radiosity::Bake& bake,
                                          const std::vector<RefinedPrimitive>& refined, const Options& options,
@@ -102,7 +129,12 @@ std::vector<VertexColors> exposed_colors(const ImportedScene& scene, const radio
   report.exposure = options.exposure.value_or(radiosity::automatic_exposure(samples_of(colors)));
   const auto k = static_cast<float>(report.exposure);
   textures.assign(scene.materials.size(), ShownTexture::kBaseColor);
-  if (parts.emission && k > 0.0F) textures = choose_textures(scene, bake, refined, 1.0F / k);
+  if (parts.emission && k > 0.0F) {
+    TextureChoice choice = choose_textures(scene, bake, refined, 1.0F / k);
+    textures = std::move(choice.shown);
+    const Displayed all = choice.squared_error > 0.0 ? displayed(scene, bake, refined, 1.0F / k) : Displayed{};
+    if (all.luminance > 0.0) report.texture_error = std::sqrt(choice.squared_error / all.area) / all.luminance;
+  }
   if (std::ranges::count(textures, ShownTexture::kEmissive) > 0) {
     colors = vertex_colors(scene, bake, refined, parts, textures);
   }

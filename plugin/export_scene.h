@@ -25,6 +25,7 @@ struct ExportedColors {
 struct ExportReport {
   double exposure = 1.0;              ///< k, m2/cd
   double clipped_share = 0.0;         ///< of the baked area
+  double texture_error = 0.0;         ///< TextureChoice::squared_error as root mean square over mean luminance
   std::uint64_t triangles = 0;        ///< of all instances, as stored
   std::uint64_t baked_triangles = 0;  ///< those that received light
   std::uint64_t vertices = 0;

@@ -59,7 +59,7 @@ void add_figures(const ExportReport& exported, Report& report) {
   report.output_triangles = exported.triangles;
   report.output_vertices = exported.vertices;
   report.removed_vertices = exported.simplified.removed_vertices;
-  report.estimated_error = std::hypot(report.estimated_error, exported.simplified.light_change);
+  report.estimated_error = std::hypot(report.estimated_error, exported.simplified.light_change, exported.texture_error);
   report.exposure = exported.exposure;
   report.clipped_share = exported.clipped_share;
   report.baked_triangles = exported.baked_triangles;

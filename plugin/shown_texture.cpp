@@ -29,8 +29,13 @@ struct SquaredErrors {
   double base_color = 0.0, emissive = 0.0;
 };
 
+/// A texture multiplies both what a material emits and what it reflects, or should.
+bool is_textured_lamp(const ImportedMaterial& material) {
+  return (material.emissive_texture || material.base_color) && material.emits() && !material.unlit;
+}
+
 bool may_show_emissive(const ImportedMaterial& material) {
-  return material.emissive_texture && material.emits() && material.alpha_mode == AlphaMode::kOpaque && !material.unlit;
+  return material.emissive_texture && material.alpha_mode == AlphaMode::kOpaque;
 }
 
 /// What both textures hold in a part of a triangle.
@@ -76,22 +81,24 @@ void add_errors(const ImportedScene& scene, const ImportedMaterial& material, co
 
 }  // namespace
 
-std::vector<ShownTexture> choose_textures(const ImportedScene& scene, const radiosity::Bake& bake,
-                                          std::span<const RefinedPrimitive> refined, float white) {
+TextureChoice choose_textures(const ImportedScene& scene, const radiosity::Bake& bake,
+                              std::span<const RefinedPrimitive> refined, float white) {
   std::vector<SquaredErrors> errors(scene.materials.size());
   for (std::size_t i = 0; i < refined.size(); ++i) {
     const PrimitiveInstance& instance = scene.instances[i];
     const ImportedMaterial& material = scene.materials[instance.material];
-    if (!instance.receives || !may_show_emissive(material)) continue;
+    if (!instance.receives || !is_textured_lamp(material)) continue;
     for (const std::uint32_t element : refined[i].elements) {
       add_errors(scene, material, bake, element, white, errors[instance.material]);
     }
   }
-  std::vector<ShownTexture> shown(errors.size(), ShownTexture::kBaseColor);
+  TextureChoice choice{std::vector<ShownTexture>(errors.size(), ShownTexture::kBaseColor)};
   for (std::size_t m = 0; m < errors.size(); ++m) {
-    if (errors[m].emissive < errors[m].base_color) shown[m] = ShownTexture::kEmissive;
+    const bool emissive = may_show_emissive(scene.materials[m]) && errors[m].emissive < errors[m].base_color;
+    if (emissive) choice.shown[m] = ShownTexture::kEmissive;
+    choice.squared_error += emissive ? errors[m].emissive : errors[m].base_color;
   }
-  return shown;
+  return choice;
 }
 
 }  // namespace gltf_radiosity

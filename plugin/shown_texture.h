@@ -19,10 +19,17 @@ enum class ShownTexture : std::uint8_t { kBaseColor, kEmissive };
 /// Below this a texture cannot be divided by: what is black hides what it multiplies whatever COLOR_0 says.
 inline constexpr float kDarkestTexture = 1.0F / 64.0F;
 
-/// The texture with which less of the displayed luminance is wrong, as mean square over the elements of all instances:
-/// [scene.materials.size()]. What is brighter than `white` (cd/m2) is cut off, so a lamp may be white whatever its
-/// texture. The emissive one only of opaque materials, for the other has the alpha.
-std::vector<ShownTexture> choose_textures(const ImportedScene& scene, const radiosity::Bake& bake,
-                                          std::span<const RefinedPrimitive> refined, float white);
+struct TextureChoice {
+  std::vector<ShownTexture> shown;  ///< [scene.materials.size()]
+  /// What is wrong of the displayed luminance because it is one texture, or multiplies what is white: squared, over all
+  /// elements of materials that emit, (cd/m2)^2 m2.
+  double squared_error = 0.0;
+};
+
+/// The texture with which less of the displayed luminance is wrong, as mean square over the elements of all instances.
+/// What is brighter than `white` (cd/m2) is cut off, so a lamp may be white whatever its texture. The emissive one only
+/// of opaque materials, for the other has the alpha.
+TextureChoice choose_textures(const ImportedScene& scene, const radiosity::Bake& bake,
+                              std::span<const RefinedPrimitive> refined, float white);
 
 }  // namespace gltf_radiosity

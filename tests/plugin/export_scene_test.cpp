@@ -107,6 +107,23 @@ TEST(ExportScene, WhatIsNotOursSurvives) {
   }
 }
 
+TEST(ExportScene, KnowsWhatATextureMakesWrongOfAnEmission) {
+  // All is lit alike, but half of the base colour is black, and with it what is emitted.
+  GltfBuilder builder;
+  PrimitiveParts parts = unit_square();
+  const std::size_t texture = builder.add_texture(2, 1, {255, 255, 255, 255, 0, 0, 0, 255});
+  Json material = {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", texture}}}}}};
+  parts.material = builder.add_material(material);
+  builder.add_node(builder.add_mesh(parts));
+  Options options;
+  options.exposure = 0.001;
+  EXPECT_EQ(exported(builder, 0, options).report.texture_error, 0.0) << "nothing is emitted";
+  material["emissiveFactor"] = {1.0, 1.0, 1.0};
+  parts.material = builder.add_material(material);
+  builder.add_node(builder.add_mesh(parts));
+  EXPECT_GT(exported(builder, 0, options).report.texture_error, 0.3);
+}
+
 TEST(ExportScene, AnUncutPrimitiveKeepsItsAccessors) {
   GltfBuilder builder;
   builder.add_node(builder.add_mesh(unit_square()));
