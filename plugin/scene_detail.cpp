@@ -47,6 +47,12 @@ glm::vec4 SceneDetail::texture_mean(const TextureSlot& slot, std::uint32_t trian
                     texcoord(slot.texcoord, triangle, part.corner[2])});
 }
 
+float SceneDetail::diffuse_share(std::uint32_t triangle, const SubTriangle& part) const {
+  const ImportedMaterial& material = material_of(triangle);
+  if (material.metals_reflect) return 1.0F;  // whatever the texture says: looking at it takes as long as the base colour
+  return material.diffuse_share(texture_mean(material.metallic_roughness, triangle, part).z);
+}
+
 Rgb SceneDetail::shown_reflectance(std::uint32_t triangle, const SubTriangle& part) const {
   const ImportedMaterial& material = material_of(triangle);
   if (material.unlit) return Rgb(0.0F);
@@ -54,14 +60,14 @@ Rgb SceneDetail::shown_reflectance(std::uint32_t triangle, const SubTriangle& pa
   const Barycentrics middle = (part.corner[0] + part.corner[1] + part.corner[2]) / 3.0F;
   const glm::vec4 mean =
       material.base_color_factor * texture_mean(material.base_color, triangle, part) * vertex_color(triangle, middle);
-  return Rgb(mean) * material.diffuse_share(texture_mean(material.metallic_roughness, triangle, part).z);
+  return Rgb(mean) * diffuse_share(triangle, part);
 }
 
 Rgb SceneDetail::undyed_shown(std::uint32_t triangle, const SubTriangle& part) const {
   const ImportedMaterial& material = material_of(triangle);
   const Barycentrics middle = (part.corner[0] + part.corner[1] + part.corner[2]) / 3.0F;
   return Rgb(texture_mean(material.base_color, triangle, part) * vertex_color(triangle, middle)) *
-         material.diffuse_share(texture_mean(material.metallic_roughness, triangle, part).z);
+         diffuse_share(triangle, part);
 }
 
 // What a material lets through depends on its factor: there is no other that it is in proportion to.

@@ -51,6 +51,8 @@ class SceneDetail : public radiosity::SurfaceDetail {
   const ImportedMaterial& material_of(std::uint32_t triangle) const;
   /// shown_reflectance() less the base colour factor.
   radiosity::Rgb undyed_shown(std::uint32_t triangle, const radiosity::SubTriangle& part) const;
+  /// The share of the base colour that reflects diffusely, mean over a part.
+  float diffuse_share(std::uint32_t triangle, const radiosity::SubTriangle& part) const;
   /// A texture of the triangle's material at a point, linear RGBA; white for an empty slot.
   glm::vec4 texel(const TextureSlot& slot, std::uint32_t triangle, radiosity::Barycentrics at) const;
   glm::vec2 texcoord(int set, std::uint32_t triangle, radiosity::Barycentrics at) const;
