@@ -271,6 +271,19 @@ class SideSplitter {
     }
   }
 
+  glm::vec3 normal_at(const Corner& corner) const {
+    const glm::vec3& own = cut_.mesh.normals[corner.vertex];
+    if (own != glm::vec3(0.0F)) return own;
+    const glm::uvec3& e = cut_.mesh.elements[corner.element];
+    const auto& positions = cut_.mesh.positions;
+    return glm::normalize(glm::cross(positions[e.y] - positions[e.x], positions[e.z] - positions[e.x]));
+  }
+
+  /// Whether two corners would show one light. Across a crease they would not, so none leads around the end of a seam.
+  bool agree(const Corner& one, const Corner& other) const {
+    return one.vertex == other.vertex || double{glm::dot(normal_at(one), normal_at(other))} >= kGoesOnCos;
+  }
+
   /// The side of each corner: corners are on one side if elements at edges that are no seams lead from one to another.
   std::vector<std::uint32_t> sides_of(std::uint32_t position_class, std::span<const Corner> corners) const {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> corner_at_edge;  // by the class of its other end
@@ -284,9 +297,12 @@ class SideSplitter {
     std::vector<std::uint32_t> side(corners.size());
     std::iota(side.begin(), side.end(), 0U);
     for (std::size_t k = 1; k < corner_at_edge.size(); ++k) {
-      if (corner_at_edge[k].first != corner_at_edge[k - 1].first) continue;
-      const std::uint32_t one = side[corner_at_edge[k - 1].second], other = side[corner_at_edge[k].second];
-      std::ranges::replace(side, std::max(one, other), std::min(one, other));
+      for (std::size_t l = k; l-- > 0 && corner_at_edge[l].first == corner_at_edge[k].first;) {
+        const std::uint32_t i = corner_at_edge[l].second, j = corner_at_edge[k].second;
+        if (!agree(corners[i], corners[j])) continue;
+        const std::uint32_t one = side[i], other = side[j];
+        std::ranges::replace(side, std::max(one, other), std::min(one, other));
+      }
     }
     return side;
   }
