@@ -81,14 +81,24 @@ glm::dvec3 ContactCutter::place_of(std::uint32_t position_class) const {
   return cut_.welder.positions()[position_class];
 }
 
-/// Whether a cut at `place` of an edge leaves no part as thin as what counts as one line. A line that cannot leave
-/// an element there is crossed by the cuts along others, those are cut along it, and so on towards the edge.
+/// Whether an element is as thin as what counts as one line.
+bool ContactCutter::is_sliver(const std::array<std::uint32_t, 3>& edges) const {
+  const glm::uvec2 one = cut_.bridge.end_classes(edges[0]), other = cut_.bridge.end_classes(edges[1]);
+  const std::uint32_t third = other.x == one.x || other.x == one.y ? other.y : other.x;
+  return least_height(place_of(one.x), place_of(one.y), place_of(third)) <= tolerance_;
+}
+
+/// Whether a cut at `place` of an edge makes no sliver of what is none. A line that cannot leave an element there is
+/// crossed by the cuts along others, those are cut along it, and so on towards the edge. What is a sliver already has
+/// no say: a chamfer beside a wall must not keep the wall whole.
 bool ContactCutter::is_clear(std::span<const std::uint32_t> copies, const glm::dvec3& place) const {
   for (const std::uint32_t copy : copies) {
     for (unsigned int side = 0; side < 2; ++side) {
       const std::uint32_t element = cut_.bridge.element_at(copy, side);
       if (element == kNothing) continue;
-      for (const std::uint32_t edge : cut_.bridge.edges_of(element)) {
+      const auto edges = cut_.bridge.edges_of(element);
+      if (is_sliver(edges)) continue;
+      for (const std::uint32_t edge : edges) {
         const glm::uvec2 ends = cut_.bridge.end_classes(edge);
         if (edge != copy && least_height(place, place_of(ends.x), place_of(ends.y)) <= tolerance_) return false;
       }
@@ -100,6 +110,7 @@ bool ContactCutter::is_clear(std::span<const std::uint32_t> copies, const glm::d
 /// An edge of an element that the line of a contact crosses, and where, if the contact covers so much of its way.
 std::optional<ContactCutter::Crossing> ContactCutter::crossing_of(const Line& line, std::uint32_t element,
                                                                   double least_covered) const {
+  if (is_sliver(cut_.bridge.edges_of(element))) return std::nullopt;  // cut for its neighbours' sake only
   double first = std::numeric_limits<double>::infinity(), last = -first;
   const auto passes = [&](const glm::dvec3& at) {
     first = std::min(first, line.place(at));
@@ -243,7 +254,9 @@ namespace {
 /// Lets the elements around vertices on seams fall apart into sides.
 class SideSplitter {
  public:
-  SideSplitter(CutMesh& cut, std::size_t max_vertices) : cut_(cut), max_vertices_(max_vertices) {}
+  /// Elements as thin as `tolerance` (m) are slivers.
+  SideSplitter(CutMesh& cut, std::size_t max_vertices, double tolerance)
+      : cut_(cut), max_vertices_(max_vertices), tolerance_(tolerance) {}
 
   void run() {
     for (const std::uint64_t key : cut_.seams) {
@@ -258,6 +271,7 @@ class SideSplitter {
   struct Corner {
     std::uint32_t element = 0, vertex = 0;
     glm::uvec2 other_classes{0};
+    bool in_sliver = false;
   };
 
   void list(std::uint32_t element) {
@@ -267,8 +281,14 @@ class SideSplitter {
     for (int k = 0; k < 3; ++k) {
       const auto found = corners_at_.find(classes[k]);
       if (found == corners_at_.end()) continue;
-      found->second.push_back({element, vertices[k], {classes[(k + 1) % 3], classes[(k + 2) % 3]}});
+      found->second.push_back(
+          {element, vertices[k], {classes[(k + 1) % 3], classes[(k + 2) % 3]}, is_sliver(vertices)});
     }
+  }
+
+  bool is_sliver(const glm::uvec3& element) const {
+    const auto& positions = cut_.mesh.positions;
+    return least_height(positions[element.x], positions[element.y], positions[element.z]) <= tolerance_;
   }
 
   glm::vec3 normal_at(const Corner& corner) const {
@@ -284,8 +304,9 @@ class SideSplitter {
     return one.vertex == other.vertex || double{glm::dot(normal_at(one), normal_at(other))} >= kGoesOnCos;
   }
 
-  /// The side of each corner: corners are on one side if elements at edges that are no seams lead from one to another.
-  std::vector<std::uint32_t> sides_of(std::uint32_t position_class, std::span<const Corner> corners) const {
+  /// Calls visit(i, j) for corners at one edge that is no seam, and would show one light.
+  template <typename Visit>
+  void for_neighbors(std::uint32_t position_class, std::span<const Corner> corners, const Visit& visit) const {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> corner_at_edge;  // by the class of its other end
     for (std::uint32_t i = 0; i < corners.size(); ++i) {
       for (int k = 0; k < 2; ++k) {
@@ -294,16 +315,31 @@ class SideSplitter {
       }
     }
     std::ranges::sort(corner_at_edge);
-    std::vector<std::uint32_t> side(corners.size());
-    std::iota(side.begin(), side.end(), 0U);
     for (std::size_t k = 1; k < corner_at_edge.size(); ++k) {
       for (std::size_t l = k; l-- > 0 && corner_at_edge[l].first == corner_at_edge[k].first;) {
         const std::uint32_t i = corner_at_edge[l].second, j = corner_at_edge[k].second;
-        if (!agree(corners[i], corners[j])) continue;
-        const std::uint32_t one = side[i], other = side[j];
-        std::ranges::replace(side, std::max(one, other), std::min(one, other));
+        if (agree(corners[i], corners[j])) visit(i, j);
       }
     }
+  }
+
+  /// The side of each corner: corners are on one side if elements at edges that are no seams lead from one to another.
+  /// Slivers go with a neighbour, but lead nowhere.
+  std::vector<std::uint32_t> sides_of(std::uint32_t position_class, std::span<const Corner> corners) const {
+    std::vector<std::uint32_t> side(corners.size());
+    std::iota(side.begin(), side.end(), 0U);
+    for_neighbors(position_class, corners, [&](std::uint32_t i, std::uint32_t j) {
+      if (corners[i].in_sliver != corners[j].in_sliver) return;
+      const std::uint32_t one = side[i], other = side[j];
+      std::ranges::replace(side, std::max(one, other), std::min(one, other));
+    });
+    std::vector<std::uint32_t> side_of_slivers(corners.size(), kNothing);  // by the one that they have by themselves
+    for_neighbors(position_class, corners, [&](std::uint32_t i, std::uint32_t j) {
+      if (corners[i].in_sliver == corners[j].in_sliver) return;
+      const std::uint32_t sliver = side[corners[i].in_sliver ? i : j], other = side[corners[i].in_sliver ? j : i];
+      side_of_slivers[sliver] = std::min(side_of_slivers[sliver], other);
+    });
+    for (std::uint32_t& s : side) s = side_of_slivers[s] != kNothing ? side_of_slivers[s] : s;
     return side;
   }
 
@@ -337,6 +373,7 @@ class SideSplitter {
 
   CutMesh& cut_;
   std::size_t max_vertices_;
+  double tolerance_;
   std::map<std::uint32_t, std::vector<Corner>> corners_at_;  ///< the position classes of vertices on seams
 };
 
@@ -344,7 +381,7 @@ class SideSplitter {
 
 void ContactCutter::split_sides(const MeshLimits& limits) {
   if (cut_.seams.empty()) return;
-  SideSplitter(cut_, limits.max_vertices).run();
+  SideSplitter(cut_, limits.max_vertices, tolerance_).run();
   cut_.write_elements();
 }
 

@@ -54,6 +54,7 @@ class ContactCutter {
 
   glm::dvec3 normal_of(std::uint32_t triangle) const;
   glm::dvec3 place_of(std::uint32_t position_class) const;
+  bool is_sliver(const std::array<std::uint32_t, 3>& edges) const;
   bool is_clear(std::span<const std::uint32_t> copies, const glm::dvec3& place) const;
   std::optional<Crossing> crossing_of(const Line& line, std::uint32_t element, double least_covered) const;
   bool goes_on(std::uint32_t edge) const;

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
+#include <set>
+#include <utility>
 
 #include "core/mesh/subdivide_adaptive.h"
 #include "core/mesh/subdivide_uniform.h"
@@ -29,6 +32,17 @@ struct CutFloor {
   std::vector<Contact> contacts;
   std::size_t max_vertices = 100'000;
 };
+
+/// Two triangles, counter-clockwise.
+void add_quad(Scene& scene, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& d) {
+  const auto first = static_cast<std::uint32_t>(scene.positions.size());
+  scene.positions.insert(scene.positions.end(), {a, b, c, d});
+  scene.normals.insert(scene.normals.end(), 4, glm::normalize(glm::cross(b - a, c - a)));
+  for (const glm::uvec3& triangle : {glm::uvec3(0, 1, 2), glm::uvec3(0, 2, 3)}) {
+    scene.triangles.push_back(first + triangle);
+    scene.surface_of_triangle.push_back(0);
+  }
+}
 
 glm::dvec3 corner(const Scene& scene, std::uint32_t triangle, int k) {
   return scene.positions[scene.triangles[triangle][k]];
@@ -110,6 +124,45 @@ TEST(CutContacts, GiveEachSideItsOwnLight) {
     }
   }
   EXPECT_GT(on_seam, 3U);
+}
+
+/// A wall of 1 m in the plane z = 0 that is parted at y = 0.45, and whether it shows two lights at the end x = 0 of the
+/// contact. `beside` adds what meets it there.
+bool is_parted_at_its_end(const std::function<void(Scene&)>& beside) {
+  Scene scene;
+  scene.surfaces = {{}};
+  add_quad(scene, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+  beside(scene);
+  std::vector<Contact> contacts;
+  for (const std::uint32_t triangle : {0U, 1U})
+    contacts.push_back({triangle, {0.0, 0.45, 0.0}, {1.0, 0.45, 0.0}, true});
+  CutMesh cut(scene);
+  EdgeCopies edges(cut);
+  ContactCutter(cut, edges, scene, contacts).cut_all({});
+  const SmoothGroups groups = find_smooth_groups(cut.mesh);
+  std::set<std::uint32_t> lights;
+  for (std::uint32_t v = 0; v < cut.mesh.positions.size(); ++v) {
+    const bool is_end = glm::distance(cut.mesh.positions[v], glm::vec3(0.0F, 0.45F, 0.0F)) < 1e-6F;
+    if (is_end && cut.mesh.normals[v].z > 0.5F) lights.insert(groups.group_of_vertex[v]);
+  }
+  return lights.size() == 2;
+}
+
+TEST(CutContacts, PartLightUpToTheirEnd) {
+  EXPECT_TRUE(is_parted_at_its_end([](Scene&) {}));
+}
+
+TEST(CutContacts, PartLightAtACreaseThoughWhatIsBehindItIsWhole) {
+  EXPECT_TRUE(is_parted_at_its_end([](Scene& scene) {
+    add_quad(scene, {0, 0, 0}, {0, 1, 0}, {0, 1, -1}, {0, 0, -1});
+  }));
+}
+
+TEST(CutContacts, PartLightBesideAChamfer) {
+  EXPECT_TRUE(is_parted_at_its_end([](Scene& scene) {
+    const float width = 4.0F * surface_offset(scene);
+    add_quad(scene, {0, 0, 0}, {0, 1, 0}, {-width, 1, 0}, {-width, 0, 0});
+  }));
 }
 
 TEST(CutContacts, DoNotPartLightWhereOneSideIsBuried) {
