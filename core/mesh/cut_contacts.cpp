@@ -345,7 +345,7 @@ class SideSplitter {
 
   void split(std::uint32_t position_class, std::span<const Corner> corners) {
     const std::vector<std::uint32_t> side = sides_of(position_class, corners);
-    if (std::ranges::all_of(side, [](std::uint32_t s) { return s == 0; })) return;
+    if (std::ranges::all_of(side, [&](std::uint32_t s) { return s == side.front(); })) return;
 
     // The vertex that each corner is to name: its own on the first side that names it, elsewhere a copy.
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> vertex_on_side;
