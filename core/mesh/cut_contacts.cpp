@@ -168,7 +168,9 @@ void ContactCutter::mark_seams(std::uint32_t element, std::span<const Line> line
       return line.light_jumps && line.side(a, tolerance_) == 0 && line.side(b, tolerance_) == 0 &&
              line.covered(line.place(a), line.place(b)) >= kSeam;
     });
-    if (is_seam && goes_on(edge)) cut_.seams.insert(pair_key(classes));
+    if (!is_seam) continue;
+    ends_on_contacts_.insert({classes.x, classes.y});
+    if (goes_on(edge)) cut_.seams.insert(pair_key(classes));
   }
 }
 
@@ -258,11 +260,13 @@ class SideSplitter {
   SideSplitter(CutMesh& cut, std::size_t max_vertices, double tolerance)
       : cut_(cut), max_vertices_(max_vertices), tolerance_(tolerance) {}
 
-  void run() {
+  /// Also at `others`, position classes where no edge need be a seam.
+  void run(std::span<const std::uint32_t> others) {
     for (const std::uint64_t key : cut_.seams) {
       corners_at_[static_cast<std::uint32_t>(key >> 32U)];
       corners_at_[static_cast<std::uint32_t>(key)];
     }
+    for (const std::uint32_t position_class : others) corners_at_[position_class];
     for (std::uint32_t element = 0; element < cut_.mesh.elements.size(); ++element) list(element);
     for (const auto& [position_class, corners] : corners_at_) split(position_class, corners);
   }
@@ -380,8 +384,9 @@ class SideSplitter {
 }  // namespace
 
 void ContactCutter::split_sides(const MeshLimits& limits) {
-  if (cut_.seams.empty()) return;
-  SideSplitter(cut_, limits.max_vertices, tolerance_).run();
+  if (ends_on_contacts_.empty()) return;
+  const std::vector<std::uint32_t> others(ends_on_contacts_.begin(), ends_on_contacts_.end());
+  SideSplitter(cut_, limits.max_vertices, tolerance_).run(others);
   cut_.write_elements();
 }
 

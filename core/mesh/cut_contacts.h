@@ -14,6 +14,7 @@
 #include <optional>
 #include <span>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "core/mesh/contacts.h"
@@ -68,6 +69,8 @@ class ContactCutter {
   const Scene& scene_;
   double tolerance_;                                               ///< metres
   std::unordered_map<std::uint32_t, std::vector<Line>> lines_on_;  ///< a triangle
+  /// Position classes of edges on contacts: where surfaces meet in a point only, light jumps without a seam.
+  std::unordered_set<std::uint32_t> ends_on_contacts_;
 };
 
 }  // namespace radiosity

@@ -126,13 +126,8 @@ TEST(CutContacts, GiveEachSideItsOwnLight) {
   EXPECT_GT(on_seam, 3U);
 }
 
-/// A wall of 1 m in the plane z = 0 that is parted at y = 0.45, and whether it shows two lights at the end x = 0 of the
-/// contact. `beside` adds what meets it there.
-bool is_parted_at_its_end(const std::function<void(Scene&)>& beside) {
-  Scene scene;
-  scene.surfaces = {{}};
-  add_quad(scene, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
-  beside(scene);
+/// How many lights surfaces in the plane z = 0 show at a place, cut along contacts on triangles 0 and 1 at y = 0.45.
+std::size_t lights_at(const glm::vec3& place, const Scene& scene) {
   std::vector<Contact> contacts;
   for (const std::uint32_t triangle : {0U, 1U})
     contacts.push_back({triangle, {0.0, 0.45, 0.0}, {1.0, 0.45, 0.0}, true});
@@ -142,10 +137,20 @@ bool is_parted_at_its_end(const std::function<void(Scene&)>& beside) {
   const SmoothGroups groups = find_smooth_groups(cut.mesh);
   std::set<std::uint32_t> lights;
   for (std::uint32_t v = 0; v < cut.mesh.positions.size(); ++v) {
-    const bool is_end = glm::distance(cut.mesh.positions[v], glm::vec3(0.0F, 0.45F, 0.0F)) < 1e-6F;
-    if (is_end && cut.mesh.normals[v].z > 0.5F) lights.insert(groups.group_of_vertex[v]);
+    const bool is_there = glm::distance(cut.mesh.positions[v], place) < 1e-6F;
+    if (is_there && cut.mesh.normals[v].z > 0.5F) lights.insert(groups.group_of_vertex[v]);
   }
-  return lights.size() == 2;
+  return lights.size();
+}
+
+/// A wall of 1 m that is parted, and whether it shows two lights at the end x = 0 of the contact. `beside` adds what
+/// meets it there.
+bool is_parted_at_its_end(const std::function<void(Scene&)>& beside) {
+  Scene scene;
+  scene.surfaces = {{}};
+  add_quad(scene, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+  beside(scene);
+  return lights_at({0, 0.45F, 0}, scene) == 2;
 }
 
 TEST(CutContacts, PartLightUpToTheirEnd) {
@@ -163,6 +168,14 @@ TEST(CutContacts, PartLightBesideAChamfer) {
     const float width = 4.0F * surface_offset(scene);
     add_quad(scene, {0, 0, 0}, {0, 1, 0}, {-width, 1, 0}, {-width, 0, 0});
   }));
+}
+
+TEST(CutContacts, PartLightWhereSurfacesMeetInAPointOnly) {
+  Scene scene;
+  scene.surfaces = {{}};
+  add_quad(scene, {0, 0.45F, 0}, {1, 0.45F, 0}, {1, 1, 0}, {0, 1, 0});
+  add_quad(scene, {-1, 0, 0}, {0, 0, 0}, {0, 0.45F, 0}, {-1, 0.45F, 0});
+  EXPECT_EQ(lights_at({0, 0.45F, 0}, scene), 2U);
 }
 
 TEST(CutContacts, DoNotPartLightWhereOneSideIsBuried) {
