@@ -49,7 +49,7 @@ glm::vec4 SceneDetail::texture_mean(const TextureSlot& slot, std::uint32_t trian
 
 float SceneDetail::diffuse_share(std::uint32_t triangle, const SubTriangle& part) const {
   const ImportedMaterial& material = material_of(triangle);
-  if (material.metals_reflect) return 1.0F;  // whatever the texture says: looking at it takes as long as the base colour
+  if (material.metals_reflect) return 1.0F;  // whatever the texture says: reading it is half of the work
   return material.diffuse_share(texture_mean(material.metallic_roughness, triangle, part).z);
 }
 
