@@ -224,9 +224,8 @@ bool ContactCutter::turn(std::uint32_t edge) {
   const auto found = lines_on_.find(triangle);
   if (found == lines_on_.end()) return false;
   const glm::uvec2 ends = cut_.bridge.end_classes(edge), opposite = cut_.bridge.opposite_classes(edge);
-  if (cut_.seams.contains(pair_key(ends))) return false;
   const int before = crossings(found->second, ends);
-  if (before == 0 || crossings(found->second, opposite) >= before) return false;
+  if (before == 0 || crossings(found->second, opposite) >= before || cut_.seams.contains(pair_key(ends))) return false;
 
   // As a quad it must be convex.
   const glm::dvec3 a = place_of(ends.x), b = place_of(ends.y), l = place_of(opposite.x), r = place_of(opposite.y);
@@ -234,19 +233,26 @@ bool ContactCutter::turn(std::uint32_t edge) {
   return least_height(l, r, a) > tolerance_ && least_height(l, r, b) > tolerance_ && edges_.turn(edge);
 }
 
-/// Whether there was anything to turn.
-bool ContactCutter::turn_edges_off_lines() {
-  bool any = false;
-  for (std::uint32_t edge = 0; edge < cut_.bridge.edge_count(); ++edge) any = turn(edge) || any;
-  return any;
+/// Turns what may be turned; returns the elements beside.
+std::vector<std::uint32_t> ContactCutter::turn_edges_off_lines() {
+  std::vector<std::uint32_t> beside;
+  for (std::uint32_t edge = 0; edge < cut_.bridge.edge_count(); ++edge) {
+    if (!turn(edge)) continue;
+    for (const unsigned int side : {0U, 1U}) beside.push_back(cut_.bridge.element_at(edge, side));
+  }
+  return beside;
 }
 
 void ContactCutter::cut_all(const MeshLimits& limits) {
   if (lines_on_.empty()) return;
   cut_.bridge.begin_round(0, 0);
+  std::vector<std::uint32_t> again;
+  std::uint32_t next = 0;
   do {
-    for (std::uint32_t element = 0; element < cut_.bridge.face_count(); ++element) cut(element, limits);
-  } while (turn_edges_off_lines());
+    for (const std::uint32_t element : again) cut(element, limits);
+    for (; next < cut_.bridge.face_count(); ++next) cut(next, limits);
+    again = turn_edges_off_lines();
+  } while (!again.empty());
   cut_.write_elements();
   split_sides(limits);
 }

@@ -61,7 +61,7 @@ class ContactCutter {
   bool goes_on(std::uint32_t edge) const;
   int crossings(std::span<const Line> lines, const glm::uvec2& end_classes) const;
   bool turn(std::uint32_t edge);
-  bool turn_edges_off_lines();
+  std::vector<std::uint32_t> turn_edges_off_lines();
   void mark_seams(std::uint32_t element, std::span<const Line> lines);
 
   CutMesh& cut_;
