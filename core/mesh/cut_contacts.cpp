@@ -110,7 +110,6 @@ bool ContactCutter::is_clear(std::span<const std::uint32_t> copies, const glm::d
 /// An edge of an element that the line of a contact crosses, and where, if the contact covers so much of its way.
 std::optional<ContactCutter::Crossing> ContactCutter::crossing_of(const Line& line, std::uint32_t element,
                                                                   double least_covered) const {
-  if (is_sliver(cut_.bridge.edges_of(element))) return std::nullopt;  // cut for its neighbours' sake only
   double first = std::numeric_limits<double>::infinity(), last = -first;
   const auto passes = [&](const glm::dvec3& at) {
     first = std::min(first, line.place(at));
@@ -143,7 +142,7 @@ std::optional<ContactCutter::Crossing> ContactCutter::crossing_of(const Line& li
 
 bool ContactCutter::is_parted(std::uint32_t element) const {
   const auto found = lines_on_.find(cut_.bridge.triangle_of(element));
-  if (found == lines_on_.end()) return false;
+  if (found == lines_on_.end() || is_sliver(cut_.bridge.edges_of(element))) return false;
   int lines = 0;
   for (const Line& line : found->second) {
     const std::optional<Crossing> crossing = crossing_of(line, element, kTouches);
@@ -181,12 +180,12 @@ std::vector<EdgeCopies::Part> ContactCutter::cut(std::uint32_t element, const Me
   std::vector<std::uint32_t> waiting{element};
   std::set<std::uint32_t> pieces{element};
   while (!waiting.empty()) {
-    // The next contact that crosses a piece.
+    // The next contact that crosses a piece. Slivers are cut for their neighbours' sake only.
     const std::uint32_t piece = waiting.back();
     std::optional<Crossing> crossing;
-    for (const Line& line : found->second) {
-      crossing = crossing_of(line, piece, kCutThrough);
-      if (crossing) break;
+    const bool may_be_cut = !is_sliver(cut_.bridge.edges_of(piece));
+    for (std::size_t k = 0; may_be_cut && !crossing && k < found->second.size(); ++k) {
+      crossing = crossing_of(found->second[k], piece, kCutThrough);
     }
     if (!crossing) {
       mark_seams(piece, found->second);
@@ -267,7 +266,7 @@ class SideSplitter {
       : cut_(cut), max_vertices_(max_vertices), tolerance_(tolerance) {}
 
   /// Also at `others`, position classes where no edge need be a seam.
-  void run(std::span<const std::uint32_t> others) {
+  void run(const std::unordered_set<std::uint32_t>& others) {
     for (const std::uint64_t key : cut_.seams) {
       corners_at_[static_cast<std::uint32_t>(key >> 32U)];
       corners_at_[static_cast<std::uint32_t>(key)];
@@ -391,8 +390,7 @@ class SideSplitter {
 
 void ContactCutter::split_sides(const MeshLimits& limits) {
   if (ends_on_contacts_.empty()) return;
-  const std::vector<std::uint32_t> others(ends_on_contacts_.begin(), ends_on_contacts_.end());
-  SideSplitter(cut_, limits.max_vertices, tolerance_).run(others);
+  SideSplitter(cut_, limits.max_vertices, tolerance_).run(ends_on_contacts_);
   cut_.write_elements();
 }
 
